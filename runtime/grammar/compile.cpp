@@ -105,11 +105,10 @@ Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& opti
 }
 
 IncludeReader includesBeside(const std::filesystem::path& file) {
-    return [folder = file.parent_path()](const std::string& name) -> std::optional<std::string> {
-        if (name.empty() || std::filesystem::path(name).filename() != name || name == "..") return std::nullopt;
-        Result<std::string> text = readTextFile(folder / name);
-        if (!text) return std::nullopt;
-        return std::move(*text);
+    return [folder = file.parent_path()](const std::string& name) -> Result<std::string> {
+        if (name.empty() || std::filesystem::path(name).filename() != name || name == "..")
+            return Failure(name, "isn't the name of a file in the same folder");
+        return readTextFile(folder / name);
     };
 }
 

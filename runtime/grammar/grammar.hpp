@@ -56,8 +56,8 @@ struct TerminalMesh {
 inline constexpr uint32_t kMeshBark = 0, kMeshLeaf = 1, kMeshPebble = 2;
 std::vector<TerminalMesh> standardTerminalMeshes();
 
-// Text of an included file, or nothing. `name` is as written between the quotes.
-using IncludeReader = std::function<std::optional<std::string>(const std::string& name)>;
+// Text of an included file, or why there is none. `name` is as written between the quotes.
+using IncludeReader = std::function<Result<std::string>(const std::string& name)>;
 // Reads files of the same folder only, so that a grammar from elsewhere can't read what isn't its own.
 IncludeReader includesBeside(const std::filesystem::path& file);
 

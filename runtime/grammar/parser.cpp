@@ -403,11 +403,14 @@ void parseFile(std::string_view text, const std::string& name, const CompileOpti
             reporter.error(included.place, {}, "more than 16 included files");
             return;
         }
-        std::optional<std::string> content = options.readInclude ? options.readInclude(wanted) : std::nullopt;
+        Result<std::string> content =
+            options.readInclude ? options.readInclude(wanted) : Failure(wanted, "there is no folder to look for it in");
         if (content)
             parseFile(*content, wanted, options, module, reporter, sources);
         else
-            reporter.error(included.place, {}, "can't read the included file \"" + wanted + "\"");
+            reporter.error(
+                included.place, {},
+                "can't read the included file \"" + wanted + "\": " + content.failure().diagnostics.front().message);
     }
 }
 

@@ -8,8 +8,16 @@
 namespace espalier {
 namespace {
 
+// The baker puts all vertices of a model without UVs at one place.
+bool hasMaterialUv(const SurfaceData& surface) {
+    return std::ranges::any_of(surface.vertices, [&](const DrawVertex& v) { return v.uv != surface.vertices[0].uv; });
+}
+
 // The layer's texels in texelIndex order.
-std::vector<float> laidOut(const SurfaceData& surface, const EspLayerDef& def) {
+std::vector<float> laidOut(const EspContext& context, const SurfaceData& surface, const EspLayerDef& def) {
+    if (def.space == ESP_LAYER_MATERIAL_UV && !hasMaterialUv(surface))
+        context.log(Severity::warning, std::string("layer '") + def.name + "': " + surface.source +
+                                           " has no UVs for a picture to be drawn in: one texel of it is everywhere");
     if (def.space != ESP_LAYER_TEXELS)
         return resampleLayer(
             surface,
@@ -37,7 +45,7 @@ EspResult setLayer(EspContext& context, const EspLayerDef& def) {
     if (def.texels) {
         const PlacedSurface& surface = *context.surfaces.find(def.surface.id);
         PaintedLayer layer{def.name, def.surface.id, surface.data.levels.front().size, {}, context.layersMade + 1, 0};
-        Result<Buffer> texels = makeBuffer(*context.device, "layer", laidOut(surface.data, def));
+        Result<Buffer> texels = makeBuffer(*context.device, "layer", laidOut(context, surface.data, def));
         if (!texels) return failGpu(&context, texels.failure());
         layer.texels = std::move(*texels);
         tell();
@@ -72,7 +80,7 @@ EspResult checkLayer(const EspContext& context, const EspLayerDef& def) {
 
 EspResult importLayer(EspContext& context, const EspLayerDef& def, EspStroke* out) {
     const PlacedSurface& surface = *context.surfaces.find(def.surface.id);
-    return replaceLayer(context, def.surface.id, def.name, laidOut(surface.data, def), out);
+    return replaceLayer(context, def.surface.id, def.name, laidOut(context, surface.data, def), out);
 }
 
 }  // namespace

@@ -203,6 +203,7 @@ TEST_CASE("what isn't for a model, a folder or a town is refused by its name, an
     std::filesystem::copy_file(r.folder / "cube.glb", r.folder / "models/cube.glb");
     REQUIRE(writeFile(r.file("plan.json"), std::string_view(R"({"buildings": [{"id": "a", "outer": )"
                                                             R"([[0, 0], [9, 0], [9, 9], [0, 9]]}]})")));
+    REQUIRE(writeFile(r.file("square.obj"), std::string_view("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")));
     const std::vector<const char*> ofModel{"--report r.json", "--images out", "--from cube.glb --layer log.txt",
                                            "--from cube.glb --seeds log.txt", "--weights log.txt"},
         ofModels{"--resolution 64", "--levels 1", "--tolerance 0", "--uv-set 0",
@@ -227,11 +228,13 @@ TEST_CASE("what isn't for a model, a folder or a town is refused by its name, an
     refuses("plan.json", "a town", ofModels);
     refuses("plan.json", "a town", ofFolder);
     for (const char* wrong : {"plan.json --walls", "plan.json --meshes a", "cube.glb --weights log.txt --keep-layout",
-                              "cube.glb --resolution 64 --levels 5", "cube.glb --resolution 16384"}) {
+                              "cube.glb --resolution 64 --levels 5", "cube.glb --resolution 16384",
+                              "square.obj --scene 0", "square.obj --uv-set 0"}) {
         CAPTURE(wrong);
         CHECK(r.run(std::string(wrong) + " -o out") == 2);
         CHECK(!r.has("out"));
     }
+    CHECK(r.says("is of glTF models"));
     CHECK(r.run("plan.json -o out --house a -q") == 0);
     CHECK(r.has("out"));
 }

@@ -118,7 +118,7 @@ TEST_CASE("a stone of a heap lies in the ground or on another") {
     const auto found = std::find_if(props.all.begin(), props.all.end(),
                                     [](const PropMeshes::Entry& e) { return e.name == "rubble_lod0"; });
     REQUIRE(found != props.all.end());
-    constexpr size_t kVertices = 6 * 4 * 4;  // of one stone: six faces
+    constexpr size_t kVertices = 6 * 5 * 5;  // of one stone: six faces
     const auto& points = found->mesh.positions;
     REQUIRE(points.size() % kVertices == 0);
     std::vector<Bounds> stones(points.size() / kVertices);

@@ -72,7 +72,15 @@ TEST_CASE("mistakes in runs are told with their line") {
     refused(head + "{\"frame\": -1, \"undo\": {}}", "2:", "frame");
     refused(head + "{\"frame\": 0, \"undo\": {}, \"redo\": {}}", "2:", "one action");
     refused(head + "{\"frame\": 0, \"light\": {\"hour\": 1, \"exposure\": 0}}", "2:", "'shadows'");
-    refused(head + "{\"frame\": 0, \"light\": {\"hour\": true, \"exposure\": 0, \"shadows\": true}}", "2:", "'hour'");
+    refused(head + "{\"frame\": 0, \"light\": {\"hour\": true, \"exposure\": 0, \"shadows\": true}}",
+            "2:", "'hour' must be a number");
+    refused(head + "{\"frame\": 0, \"light\": {\"hour\": 1, \"exposure\": 0, \"shadows\": 1}}",
+            "2:", "'shadows' must be true or false");
+    refused(head + "{\"frame\": 0, \"fill\": {\"layer\": \"mask\", \"value\": 1, \"valeu\": 1}}",
+            "2:", "no key 'valeu'");
+    refused(head + "{\"frame\": 0, \"load_layer\": {\"layer\": \"mask\", \"file\": 5, \"surface\": 0}}",
+            "2:", "'file' must be a text");
+    refused(head + "{\"frame\": 0, \"dabs\": {\"dabs\": [[0, 0]]}}", "2:", "each is a list of 7 numbers");
     refused(head + "{\"frame\": 2, \"undo\": {}}\n{\"frame\": 1, \"redo\": {}}", "3:", "later");
 }
 

@@ -76,7 +76,7 @@ TEST_CASE("rules, parameters, lets and arguments may be called width") {
 
 TEST_CASE("a width from an include is the grammar's, and a second one is refused") {
     CompileOptions options;
-    options.readInclude = [](const std::string&) { return std::optional<std::string>("width 0.125\n"); };
+    options.readInclude = [](const std::string&) { return Result<std::string>("width 0.125\n"); };
     Result<RuleMap> map = compileGrammar("include \"base.grammar\"\n" + kMarch, options);
     if (!map) FAIL(map.failure().text());
     CHECK(map->width() == 0.125f);

@@ -50,6 +50,31 @@ TEST_CASE("layers that no grammar of a scene reads are warned of, and aren't the
     CHECK_MESSAGE(contains(exported.output, "has no layer 'maks'"), exported.output);
     CHECK(!std::filesystem::exists(folder.file("maks.png")));
     CHECK(run(capture + " --view nope").code == 2);
+    folder.write("run.jsonl", R"({"espalier_run": 1, "scene": "scene.json", "width": 64, "height": 36, "step": 0.1}
+{"frame": 0, "fill": {"layer": "msak", "value": 1}}
+{"frame": 1, "fill": {"layer": "msak", "value": 0}}
+{"frame": 1, "fill": {"layer": "mask", "value": 0}}
+)");
+    const Ran replayed = run(capture + " --replay " + folder.file("run.jsonl"));
+    CHECK_MESSAGE(replayed.code == 0, replayed.output);
+    CHECK_MESSAGE(contains(replayed.output, "run.jsonl:2: no grammar reads the layer 'msak'"), replayed.output);
+    CHECK(!contains(replayed.output, "run.jsonl:3"));
+    CHECK(!contains(replayed.output, "'mask'"));
+}
+
+TEST_CASE("a picture that is to lie in UVs that a model hasn't got is told of") {
+    const Folder folder;
+    const std::string model = folder.write("bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"),
+                      surface = folder.file("bare.surface.glb");
+    REQUIRE(run(program("espalier-bake") + " " + model + " -q --resolution 128 -o " + surface).code == 0);
+    const auto laid = [&](const std::string& on) {
+        return run(program("espalier-capture") + " " + on + " --size 64x36 -o " + folder.file("out") +
+                   " --layer mask=" + content("mask.png"));
+    };
+    const Ran ran = laid(surface);
+    CHECK_MESSAGE(ran.code == 0, ran.output);
+    CHECK_MESSAGE(contains(ran.output, "layer 'mask': bare.obj has no UVs"), ran.output);
+    CHECK(!contains(laid(content("ruin.surface.glb")).output, "has no UVs"));
 }
 
 TEST_CASE("a sun's intensity counts without a colour") {

@@ -136,6 +136,16 @@ TEST_CASE("a town's triangles are the same in every run") {
     }
 }
 
+TEST_CASE("each footprint that is mended or left out is told of with its file") {
+    const Folder folder;
+    folder.write("plan.json", R"({"buildings": [{"id": "crossed", "outer": [[0, 0], [10, 0], [0, 8], [10, 8]]},
+        {"id": "line", "outer": [[20, 0], [30, 0]]}, {"id": "thin", "outer": [[40, 0], [50, 0], [50, 0.00001]]}]})");
+    const Ran ran = run("cd " + folder.path.string() + " && " + program("espalier-bake") + " plan.json -q -o town.glb");
+    CHECK_MESSAGE(ran.code == 0, ran.output);
+    for (const char* house : {"crossed", "line", "thin"})
+        CHECK_MESSAGE(contains(ran.output, std::string("plan.json: warning: ") + house + ": "), ran.output);
+}
+
 TEST_CASE("a town that a limit cut short is written all the same, and how much of it was is told") {
     const Folder folder;
     folder.write("plan.json", R"({"buildings": [{"id": "a", "outer": [[0, 0], [8, 0], [8, 6], [0, 6]]}]})");

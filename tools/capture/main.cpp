@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "tools/command_line.hpp"
 #include "tools/document/document.hpp"
@@ -218,16 +219,23 @@ bool filmTurn(const Scene& scene, uint32_t frames, Film& film, std::string& erro
 }
 
 // All frames are grown, so that each is what it was when it was recorded; some are drawn.
-bool filmRun(const Run& run, uint32_t every, Document& document, Film& film, uint32_t& taken, std::string& error) {
+bool filmRun(const Run& run, const std::string& file, uint32_t every, Document& document, Film& film, uint32_t& taken,
+             std::string& error) {
     size_t next = 0;
     const uint32_t frames = run.frames();
+    std::set<std::string> unread;  // layers that were warned of
     for (uint32_t frame = 0; frame < frames; ++frame) {
-        for (; next < run.lines.size() && run.lines[next].frame == frame; ++next)
+        for (; next < run.lines.size() && run.lines[next].frame == frame; ++next) {
+            const std::string layer = layerOf(run.lines[next].action);
+            if (!layer.empty() && !readsLayer(document.scene(), layer) && unread.insert(layer).second)
+                warn(file + ":" + std::to_string(run.lines[next].number) + ": no grammar reads the layer '" + layer +
+                     "'");
             if (!document.perform(run.lines[next].action, error, run.lines[next].gesture)) {
                 error = "frame " + std::to_string(frame) + ", line " + std::to_string(run.lines[next].number) + ": " +
                         error;
                 return false;
             }
+        }
         const std::string of = "frame " + std::to_string(frame) + ": ";
         if (espUpdate(film.context) != ESP_OK) {
             error = of + espLastError(film.context);
@@ -294,7 +302,7 @@ int run(Options options) {
             return fail("--export: this scene has no layer '" + asked.layer + "'");
     if (!film.begin(error)) return fail(error);
     uint32_t taken = replays ? 0 : options.frames;
-    if (!(replays ? filmRun(recorded, options.every, document, film, taken, error)
+    if (!(replays ? filmRun(recorded, options.replay, options.every, document, film, taken, error)
                   : filmTurn(scene, options.frames, film, error)))
         return fail(replays ? options.replay + ": " + error : error);
     for (const LayerFile& asked : options.exports)

@@ -170,6 +170,9 @@ Status generate(const Options& options) {
     if (Status s = makeDirectory(options.directory); !s) return s;
     if (!options.previewDirectory.empty())
         if (Status s = makeDirectory(options.previewDirectory); !s) return s;
+    // First, since it is what can be wrong with what is asked for.
+    if (!options.town.empty())
+        if (Status s = writeSite(options); !s) return s;
     auto wanted = [&](const char* part) { return options.only.empty() || options.only == part; };
     if (wanted("ruin"))
         if (Status s = writeRuin(options); !s) return s;
@@ -177,8 +180,6 @@ Status generate(const Options& options) {
         if (Status s = writeRoofMeshes(options); !s) return s;
     if (wanted("props"))
         if (Status s = writeProps(options); !s) return s;
-    if (wanted("props") && !options.town.empty())
-        if (Status s = writeSite(options); !s) return s;
     return wanted("terminals") ? writeTerminals(options) : Status(Done{});
 }
 

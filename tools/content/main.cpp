@@ -23,13 +23,15 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember({256, 512, 1024, 2048, 4096}));
     app.add_option("--only", options.only, "makes one of ruin, roofs, terminals, props instead of all")
         ->check(CLI::IsMember({"ruin", "roofs", "terminals", "props"}));
-    app.add_option("--town", options.town, "houses that the site is laid out around")
-        ->needs(app.add_option("--grammar", options.grammar, "of these houses, for where their doors are"));
+    CLI::Option* town =
+        app.add_option("--town", options.town, "houses that the site is laid out around, --only or not");
+    town->needs(
+        app.add_option("--grammar", options.grammar, "of these houses, for where their doors are")->needs(town));
     app.set_version_flag("--version", "espalier-content " ESPALIER_VERSION);
     if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
     Status status = content::generate(options);
     if (!status) {
-        std::fprintf(stderr, "%s\n", status.failure().text().c_str());
+        std::fprintf(stderr, "espalier-content: %s\n", status.failure().text().c_str());
         return 1;
     }
     return 0;

@@ -35,10 +35,11 @@ constexpr int kCloverCell = kFlowers + kMeadows;
 Picture paintFoliage(int size);
 
 // Built props' colours: u is how bright, v picks the material.
-enum class Paint { stone, mortar, wood, darkWood, white, iron, clay, straw, count };
+// Of `fallen`, stone that lies in the grass, the darkest third is moss.
+enum class Paint { stone, mortar, wood, darkWood, white, iron, clay, straw, fallen, count };
 Picture paintPalette();
 inline glm::vec2 paletteUv(Paint paint, float bright) {
-    return {0.05f + 0.9f * glm::clamp(bright, 0.0f, 1.0f), (float(paint) + 0.5f) / 8};
+    return {0.05f + 0.9f * glm::clamp(bright, 0.0f, 1.0f), (float(paint) + 0.5f) / float(Paint::count)};
 }
 
 }  // namespace espalier::content

@@ -22,11 +22,17 @@ void Layout::row(const std::string& piece, vec2 a, vec2 b, int gate) {
     const float length = glm::distance(a, b);
     const int count = std::max(1, int(std::round(length / 2)));
     const float degrees = -std::atan2(b.y - a.y, b.x - a.x) * 180 / kPi, scale = length / (2 * float(count));
-    for (int i = 0; i < count; ++i) {
+    const bool posts = piece == "fence" || piece == "rails";  // their pieces have one where they begin
+    for (int i = 0, last = -1; i <= count; ++i) {
         const vec2 at = glm::mix(a, b, (float(i) + 0.5f) / float(count));
-        if (i == gate || plan_.paved(at) > -0.3f || plan_.toHouse(at) < 0.25f) continue;
+        if (i == count || i == gate || plan_.paved(at) > -0.3f || plan_.toHouse(at) < 0.25f) {
+            const vec2 end = glm::mix(a, b, float(i) / float(count));
+            if (posts && last >= 0 && last == i - 1 && plan_.toHouse(end) > 0.1f) put("post", end, degrees, 1);
+            continue;
+        }
         put(piece, at, degrees, scale, 0);
         taken_.push_back({at, piece == "hedge" ? 1.3f : 1.0f});
+        last = i;
     }
     if (piece == "wall")
         for (vec2 end : {a, b})

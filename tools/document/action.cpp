@@ -26,6 +26,16 @@ bool whole(const scene::Json& json, uint32_t& out) {
 
 }  // namespace
 
+std::string layerOf(const Action& action) {
+    const auto layer = []<class A>(const A& a) -> std::string {
+        constexpr bool changes = std::is_same_v<A, StrokeBegin> || std::is_same_v<A, FillLayer> ||
+                                 std::is_same_v<A, LoadLayer> || std::is_same_v<A, LoadTownLayer>;
+        if constexpr (changes) return a.layer;
+        return {};
+    };
+    return std::visit(layer, action);
+}
+
 std::string toJson(const RunLine& line) {
     nlohmann::ordered_json json{{"frame", line.frame}};
     if (line.gesture) json["gesture"] = line.gesture;

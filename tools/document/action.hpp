@@ -263,6 +263,9 @@ using Action = std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeed
                             StrokeDabs, StrokeEnd, FillLayer, LoadLayer, FreezeSeeds, PruneBranch, SetHouse, ResetHouse,
                             LoadTownLayer, SetCamera, SetView, Undo, Redo, SwapStroke, RestoreFrozen>;
 
+// The layer that an action begins to change; empty: none.
+std::string layerOf(const Action& action);
+
 // One line of a run: {"frame": 3, "gesture": 2, "NAME": {fields}}; see run.hpp.
 struct RunLine {
     uint32_t frame = 0;

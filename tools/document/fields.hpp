@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/scene/json_out.hpp"
@@ -67,10 +69,10 @@ class FieldReader {
 
     template <class T>
     void operator()(const char* name, T& value) {
-        ++known_;
+        known_.push_back(name);
         const scene::Json* json = from_.find(name);
         if (!json) return fail(from_, std::string("'") + name + "' is missing");
-        if (!read(*json, value)) fail(*json, std::string("'") + name + "' isn't what it should be");
+        if (!read(*json, value)) fail(*json, std::string("'") + name + "' must be " + kindOf(value));
     }
     template <class T>
     void optional(const char* name, std::vector<T>& value) {
@@ -82,7 +84,9 @@ class FieldReader {
     }
     // After all fields.
     void end() {
-        if (known_ < from_.members.size()) fail(from_, "there is a key too much");
+        for (const auto& member : from_.members)
+            if (std::ranges::find(known_, member.name) == known_.end())
+                return fail(member.value, "there is no key '" + member.name + "' here");
     }
 
   private:
@@ -131,13 +135,30 @@ class FieldReader {
         inner.end();
         return error_.empty();
     }
+    // What read() takes, in words.
+    static std::string kindOf(bool) { return "true or false"; }
+    static std::string kindOf(uint32_t) { return "a whole number up to 4294967295"; }
+    static std::string kindOf(float) { return "a number"; }
+    static std::string kindOf(const std::string&) { return "a text"; }
+    template <class T, size_t N>
+    static std::string kindOf(const std::array<T, N>&) {
+        return "a list of " + std::to_string(N) + " numbers";
+    }
+    template <class T>
+    static std::string kindOf(const std::vector<T>&) {
+        return "a list, of which each is " + kindOf(T{});
+    }
+    template <class T>
+    requires requires(T t, FieldWriter w) { t.fields(w); }
+    static std::string kindOf(const T&) { return "an object"; }
+
     void fail(const scene::Json& at, const std::string& message) {
         if (error_.empty()) error_ = std::to_string(at.line) + ":" + std::to_string(at.column) + ": " + message;
     }
 
     const scene::Json& from_;
     std::string& error_;
-    size_t known_ = 0;
+    std::vector<std::string_view> known_;  // the fields' names so far
 };
 
 // Counts the memory that a record's fields hold besides the record itself.

@@ -21,6 +21,10 @@ bool fits(const std::string& group, InputKind kind) {
     return group != kOfTown || kind == InputKind::town;
 }
 
+bool hasOneSceneAndUvs(const std::string& model) {
+    return model.ends_with(".obj") || model.ends_with(".ply") || model.ends_with(".ply.gz");
+}
+
 void addPlaces(CLI::App& app, Arguments& arguments) {
     app.add_option("MODEL", arguments.model,
                    ".gltf, .glb, .obj or .ply; a folder of such; or footprints: .geojson, or a plan in .json")
@@ -128,6 +132,10 @@ std::optional<Failure> mistakeIn(const CLI::App& app, const Arguments& arguments
         if (option->count() > 0 && !fits(option->get_group(), kind))
             return Failure(option->get_name(), std::string("is not for ") + nameOf(kind) + ", and '" + arguments.model +
                                                    "' is taken for one");
+    if (kind == InputKind::model && hasOneSceneAndUvs(arguments.model))
+        for (const char* option : {"--scene", "--uv-set"})
+            if (app.count(option) > 0)
+                return Failure(option, "is of glTF models, which '" + arguments.model + "' isn't");
     if (!arguments.carry.from.empty() && arguments.carry.layers.empty() && arguments.carry.seeds.empty())
         return Failure("--from", "needs --layer or --seeds: what is to be carried");
     if (!std::isfinite(float(arguments.tolerance))) return Failure("--tolerance", "is not a number of metres");

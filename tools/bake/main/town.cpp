@@ -167,7 +167,11 @@ Status bakeTown(const TownArguments& arguments) {
     if (Status s = keepHouses(arguments, town->footprints); !s) return s;
     std::vector<Diagnostic> diagnostics = std::move(town->diagnostics);
     const RoofStructure structure = roofsOf(town->footprints, diagnostics);
-    for (const Diagnostic& d : diagnostics) std::fprintf(stderr, "%s\n", toString(d).c_str());
+    for (Diagnostic& d : diagnostics) {
+        if (d.file.empty()) d.file = arguments.footprints;
+        d.warning = true;
+        std::fprintf(stderr, "%s\n", toString(d).c_str());
+    }
     if (structure.houses.empty()) return Failure(arguments.footprints, "holds no building whose roof could be made");
     GlbWriter glb;
     size_t triangles = 0;
