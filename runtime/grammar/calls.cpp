@@ -195,7 +195,9 @@ Node Expressions::angleTo(const Expr& e, Env& env) {
     if (directions.size() / 3 == kMaxDirections)
         return fail(e.place, env, "angleTo is asked for more than 4 directions in this grammar");
     directions.insert(directions.end(), d, d + 3);
-    return graph_.leaf(Leaf::slot, kSlotAngle + static_cast<uint32_t>(directions.size() / 3) - 1);
+    const Node angle = graph_.leaf(Leaf::slot, kSlotAngle + static_cast<uint32_t>(directions.size() / 3) - 1);
+    for (Node n : d) graph_.dependsOn(angle, graph_[n].params);
+    return angle;
 }
 
 bool Expressions::lowerColour(const std::vector<ExprId>& args, const Place& place, Env& env, Node (&rgb)[3]) {

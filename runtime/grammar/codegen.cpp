@@ -117,6 +117,7 @@ class Emitter {
         if (g.leaf == Leaf::draw) return {kSlotDraw + drawSlot(g.op), 0};
         if (g.leaf == Leaf::slot) {
             noteSlot(g.op);
+            reads_.params |= g.params;
             return {g.op, 0};
         }
         auto found = registers_.find(n);

@@ -33,11 +33,15 @@ bool Expressions::mistaken(const std::string& name) const {
 }
 
 Node Expressions::unknown(const std::string& name, const Place& place, const Env& env) {
-    if (mistaken(name)) return graph_.mistake();
-    std::vector<std::string> candidates = roofs_ ? roofAccessorNames() : accessorNames();
-    for (const auto& arg : env.args) candidates.push_back(arg.first);
-    candidates.insert(candidates.end(), names_.begin(), names_.end());
-    return fail(place, env, "'" + name + "' is not known" + didYouMean(name, candidates));
+    if (reporter_.full() || mistaken(name)) return graph_.mistake();
+    auto [hint, fresh] = hints_.try_emplace({env.rule, name});
+    if (fresh) {
+        std::vector<std::string> candidates = roofs_ ? roofAccessorNames() : accessorNames();
+        for (const auto& arg : env.args) candidates.push_back(arg.first);
+        candidates.insert(candidates.end(), names_.begin(), names_.end());
+        hint->second = didYouMean(name, candidates);
+    }
+    return fail(place, env, "'" + name + "' is not known" + hint->second);
 }
 
 Node Expressions::accessor(const AccessorInfo& info, const Place& place, const Env& env) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "runtime/grammar/ast.hpp"
@@ -107,6 +108,7 @@ class Expressions {
     std::map<std::string, uint32_t> paramByName_, contextByName_, letByName_;
     std::set<std::string> names_, used_, activeLets_;
     std::set<std::string> colourContexts_;  // each is three contexts, its name with kChannels behind it
+    std::map<std::pair<std::string, std::string>, std::string> hints_;  // of a rule and a name that it doesn't know
     uint64_t work_ = 0;
     bool roofs_ = false;
     uint32_t nesting_ = 0;  // calls of lower and lowerVector under way

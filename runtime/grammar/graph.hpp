@@ -33,6 +33,8 @@ class Graph {
     Graph();
     Node constant(float value);
     Node leaf(Leaf kind, uint32_t number);
+    // Of a leaf: parameters that what fills it is worked out from.
+    void dependsOn(Node leaf, uint32_t params) { nodes_[leaf].params |= params; }
     Node make(uint32_t op, Node x, Node y, Node z);
     Node make(uint32_t op, Node x, Node y) { return make(op, x, y, kNone); }
     Node make(uint32_t op, Node x) { return make(op, x, kNone, kNone); }

@@ -4,6 +4,7 @@
 #include "runtime/grammar/parser.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "runtime/grammar/lexer.hpp"
 
@@ -396,9 +397,10 @@ void parseFile(std::string_view text, const std::string& name, const CompileOpti
     }
     Parser parser(lex(text, file, reporter), module, reporter);
     parser.run();
+    const std::string mainName = std::filesystem::path(module.files.front()).filename().string();  // as includes say it
     for (const Token& included : parser.includes) {
         const std::string& wanted = included.text;
-        if (std::find(module.files.begin(), module.files.end(), wanted) != module.files.end()) continue;
+        if (std::ranges::find(module.files, wanted) != module.files.end() || wanted == mainName) continue;
         if (module.files.size() >= kMaxFiles) {
             reporter.error(included.place, {}, "more than 16 included files");
             return;

@@ -1,6 +1,7 @@
 // Which symbols grow (reach Marching), which draw, and whether derivation always gets on: a cycle of rules without
 // Marching would never end, so it is refused here, whatever conditions stand in it.
 #include <algorithm>
+#include <utility>
 
 #include "runtime/grammar/compilation.hpp"
 
@@ -47,34 +48,41 @@ void collect(Compilation& c) {
     }
 }
 
+// What is so of a symbol is so of all that call it.
+void spread(Compilation& c, const std::vector<std::vector<uint32_t>>& callers, bool Symbol::*property, bool value) {
+    std::vector<uint32_t> open;
+    for (uint32_t s = 0; s < c.symbols.size(); ++s)
+        if (c.symbols[s].*property == value) open.push_back(s);
+    while (!open.empty()) {
+        const uint32_t from = open.back();
+        open.pop_back();
+        for (uint32_t caller : callers[from])
+            if (std::exchange(c.symbols[caller].*property, value) != value) open.push_back(caller);
+    }
+}
+
 // grows: some rule marches or calls what grows. vanishes: no rule marches, draws or calls what doesn't vanish.
 void classify(Compilation& c) {
-    for (bool changed = true; changed;) {
-        changed = false;
-        for (Symbol& symbol : c.symbols) {
-            bool grows = symbol.grows, vanishes = symbol.vanishes;
-            for (uint32_t r : symbol.rules) {
-                const Rule& rule = c.module.rules[r];
-                if (wholeBlock(rule, Block::marching) != nullptr) {
-                    grows = true;
-                    vanishes = false;
-                    continue;
-                }
-                forEachElement(rule.successor, [&](const Element& e) {
-                    uint32_t callee = isCall(e) ? c.findSymbol(e.name) : kNoSymbol;
-                    if (callee != kNoSymbol) {
-                        grows = grows || c.symbols[callee].grows;
-                        vanishes = vanishes && c.symbols[callee].vanishes;
-                    }
-                    const CommandInfo* command = findCommand(e.name);
-                    if (command != nullptr && command->kind == Command::shape) vanishes = false;
-                });
+    std::vector<std::vector<uint32_t>> callers(c.symbols.size());
+    for (uint32_t s = 0; s < c.symbols.size(); ++s) {
+        Symbol& symbol = c.symbols[s];
+        for (uint32_t r : symbol.rules) {
+            const Rule& rule = c.module.rules[r];
+            if (wholeBlock(rule, Block::marching) != nullptr) {
+                symbol.grows = true;
+                symbol.vanishes = false;
+                continue;
             }
-            changed = changed || grows != symbol.grows || vanishes != symbol.vanishes;
-            symbol.grows = grows;
-            symbol.vanishes = vanishes;
+            forEachElement(rule.successor, [&](const Element& e) {
+                const uint32_t callee = isCall(e) ? c.findSymbol(e.name) : kNoSymbol;
+                if (callee != kNoSymbol) callers[callee].push_back(s);
+                const CommandInfo* command = findCommand(e.name);
+                if (command != nullptr && command->kind == Command::shape) symbol.vanishes = false;
+            });
         }
     }
+    spread(c, callers, &Symbol::grows, true);
+    spread(c, callers, &Symbol::vanishes, false);
 }
 
 // Depth-first over the calls that rules without Marching make.
@@ -247,7 +255,7 @@ void warnUnreached(Compilation& c) {
 }
 
 void Compilation::reportUnknown(const Element& e, const std::string& rule) {
-    if (module.mistaken.contains(e.name)) return;
+    if (reporter.full() || module.mistaken.contains(e.name)) return;
     std::vector<std::string> candidates = successorNames();
     for (const Symbol& s : symbols) candidates.push_back(s.name);
     reporter.error(e.place, rule, "there is no rule for '" + e.name + "'" + didYouMean(e.name, candidates));

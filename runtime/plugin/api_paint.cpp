@@ -31,10 +31,17 @@ EspResult makePainter(EspContext& context) {
     return ESP_OK;
 }
 
-// Of each block the texels that lie within a dab's radius, bit 8 y + x.
+// The farthest that a dab may reach in object space: the kernel, which measures in the world, rounds otherwise.
+float reachOf(const PlacedSurface& surface, std::span<const DabRecord> dabs, float radius) {
+    constexpr float kRounding = 1e-6f;  // of coordinates, some steps of a float
+    float farthest = radius;
+    for (const DabRecord& dab : dabs) farthest = std::max(farthest, glm::length(dab.position) + radius);
+    return (1.001f * radius + kRounding * farthest) / surface.scale;
+}
+
+// Of each block the texels that lie within `reach` of a dab, bit 8 y + x.
 std::vector<uint64_t> texelsWithin(const PlacedSurface& surface, std::span<const uint32_t> blocks,
-                                   std::span<const DabRecord> dabs, float radius) {
-    const float reach = radius / surface.scale * 1.001f;  // the kernel rounds otherwise
+                                   std::span<const DabRecord> dabs, float reach) {
     std::vector<glm::vec3> centres;
     for (const DabRecord& dab : dabs) centres.push_back(surface.toObject * glm::vec4(dab.position, 1));
     std::vector<uint64_t> within;
@@ -120,9 +127,9 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
         if (roofsOnly && !paintedLayer(context, id, stroke.layer)) return;
         std::vector<uint32_t> blocks;
+        const float reach = reachOf(surface, records, stroke.radius);
         for (const DabRecord& dab : records)
-            boundsOf(surface).near(glm::vec3(surface.toObject * glm::vec4(dab.position, 1)),
-                                   stroke.radius / surface.scale, blocks);
+            boundsOf(surface).near(glm::vec3(surface.toObject * glm::vec4(dab.position, 1)), reach, blocks);
         std::ranges::sort(blocks);
         blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
         if (!blocks.empty()) touched.push_back({id, std::move(blocks)});
@@ -136,7 +143,8 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
         stroke.smooths ? smooth(context, jobs, stroke, records) : context.painter->dabs(jobs, stroke.brush, records);
     for (const auto& [id, blocks] : touched) {  // smoothing that failed may have come to some of the surfaces
         const PlacedSurface& surface = *context.surfaces.find(id);
-        layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, records, stroke.radius));
+        const float reach = reachOf(surface, records, stroke.radius);
+        layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, records, reach));
     }
     untold.done();
     return painted ? ESP_OK : failGpu(&context, painted.failure());

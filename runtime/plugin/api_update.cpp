@@ -104,12 +104,14 @@ GrowthLimits growthLimits(const EspGrowDef& def) {
     return limits;
 }
 
-// The texels of the one surface that there is; of several growth knows the tables alone.
+// The texels of the one surface that there is, if it is the first of the table, which is where kernels look for it; of
+// others growth knows the tables alone.
 const Buffer* onlySurface(const EspContext& context) {
     const Buffer* only = nullptr;
     uint32_t count = 0;
-    context.surfaces.forEach(
-        [&](uint32_t, const PlacedSurface& surface) { only = ++count == 1 ? &surface.gpu.data() : nullptr; });
+    context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
+        only = ++count == 1 && instanceOf(id) == 0 ? &surface.gpu.data() : nullptr;
+    });
     return only;
 }
 

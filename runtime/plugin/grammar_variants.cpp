@@ -24,12 +24,13 @@ uint32_t freePlace(std::vector<GrammarVariant>& variants, const std::vector<bool
     return uint32_t(variants.size() - 1);
 }
 
-// The grammar's map with the variant's values; parameters that it hasn't got (any more) are passed over.
+// The grammar's map with the variant's values; parameters that it hasn't got (any more), or has of another kind, are
+// passed over.
 Status fill(EspContext& context, GrammarVariant& variant, uint32_t place) {
     const LoadedGrammar& grammar = *context.grammars.find(variant.grammar);
     RuleMap map = grammar.map;
     for (const SeedParam& param : variant.params)
-        if (const auto index = map.findParam(param.name))
+        if (const auto index = map.findParam(param.name); index && numbersOf(map.params()[*index]) == param.count)
             map.setParam(*index, std::span(param.value.data(), param.count));
     Result<Buffer> words = makeBuffer(*context.device, "rule map variant", std::as_bytes(map.words()));
     if (!words) return words.failure();

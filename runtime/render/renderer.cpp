@@ -258,7 +258,8 @@ void RendererImpl::forget() {
     depthTiles_.forget();
     targets_.color = Image();
     shadowMap_.state = standing_.state = ImageState::undefined;
-    shadowDrawn_ = wideDrawn_ = false;
+    near_.clear();
+    wide_.clear();
 }
 
 Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
@@ -319,9 +320,9 @@ RenderStats RendererImpl::stats() const {
     if (roofed_) stats.roofs = roofs_->stats();
     stats.modelTriangles = models_.triangles();
     stats.modelsFading = models_.fading();
-    stats.shadowsWhole = shadowsWhole_;
-    stats.shadowsPartly = shadowsPartly_;
-    stats.shadowsTaken = shadowsTaken_;
+    stats.shadowsWhole = near_.timesWhole();
+    stats.shadowsPartly = near_.timesPartly();
+    stats.shadowsTaken = near_.timesTaken();
     stats.shadowsBehind = shadowsBehind_;
     stats.emitMs = device_.milliseconds("emit");
     stats.drawMs = std::max(0.0, device_.milliseconds("draw") - stats.emitMs);

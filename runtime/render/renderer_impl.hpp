@@ -12,6 +12,7 @@
 #include "runtime/render/host_merge.hpp"
 #include "runtime/render/models.hpp"
 #include "runtime/render/renderer.hpp"
+#include "runtime/render/shadow_state.hpp"
 #include "runtime/render/targets.hpp"
 
 namespace espalier {
@@ -40,17 +41,6 @@ class RendererImpl final : public Renderer {
     Result<EmittedTriangles> materialise(const EmitInputs& inputs) override { return emit_.materialise(inputs); }
 
   private:
-    struct ShadowKey {
-        uint64_t growth = 0, models = 0;
-        glm::vec3 sun{0};
-        uint32_t nodes = 0, leaves = 0;
-        uint64_t roofs = 0;
-        glm::vec4 sphere{0};
-        bool operator==(const ShadowKey&) const = default;
-    };
-    // What of the near half a picture draws anew: of tiles those that edits of growth have changed.
-    enum class NearShadows { stand, fewTiles, allTiles, whole };
-
     Status makePrograms();
     Status drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target);
     // The programs that draw what is lit: one set for each kind of shading, one for the view that counts fragments.
@@ -70,15 +60,13 @@ class RendererImpl final : public Renderer {
     Status upload(Commands& commands, const FrameRecord& frame);
     // renderer_shadows.cpp: redraws shadows that aren't up to date, and tells the frame where they are.
     Status keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame);
-    Status updateNearShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, const ShadowKey& key);
-    NearShadows nearShadows(const ShadowKey& key, bool stroke) const;
-    Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, bool coarse);
+    ShadowScene shadowScene(const DrawInputs& inputs, glm::vec3 sun, glm::vec4 sphere) const;
+    Status updateNearShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, const ShadowScene& now);
+    Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun);
     // The tiles that edits have changed since, or so many of them.
     Status redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, uint32_t mostTiles);
     void drawStanding(DrawPass& pass, const SunView& sun, float error);
     Status makeStanding();
-    // `before` with the growth of `now`.
-    static ShadowKey edited(ShadowKey before, const ShadowKey& now);
     // All that stands but growth, into the map's right half; the whole map is cleared.
     Status drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun);
     Status aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
@@ -126,21 +114,13 @@ class RendererImpl final : public Renderer {
     std::array<Buffer, kFrameSlots> frames_;
     const Buffer* frame_ = nullptr;  // the one of this recording
     uint32_t frameSlot_ = 0;
-    ShadowKey shadowKey_, wideKey_, wideBefore_;
-    glm::mat4 wideToTexture_{1};
-    uint32_t wideChanges_ = 0;  // frames in a row in which what casts them has changed
-    bool wideDrawn_ = false;
-    uint64_t growthBefore_ = 0, sceneNumber_ = 0;
-    uint32_t changes_ = 0;  // frames in a row in which growth has changed
-    uint64_t propsRevision_ = 0;
-    bool grows_ = false, roofed_ = false, shadowDrawn_ = false;
-    bool plain_ = false;         // growth and props are drawn as in the shaded view
-    bool shadowCoarse_ = false;  // the map has fewer and larger leaves, as in a stroke
+    NearShadows near_;
+    WideShadows wide_;
+    bool shadowsBehind_ = false;  // of what this picture shows
+    uint64_t sceneNumber_ = 0, propsRevision_ = 0;
+    bool grows_ = false, roofed_ = false;
+    bool plain_ = false;  // growth and props are drawn as in the shaded view
     bool quickBefore_ = false;
-    bool shadowsBehind_ = false;   // of what this picture shows
-    bool shadowKept_ = false;      // edits of growth can be redrawn alone
-    uint64_t shadowBindings_ = 0;  // whole bindings when the map was last drawn whole
-    uint32_t shadowsWhole_ = 0, shadowsPartly_ = 0, shadowsTaken_ = 0;
     float groundLevel_ = 0, unit_ = 1;  // of this recording
     bool lit_ = false;                  // what has few vertices has been lit ahead of this picture
     bool ahead_ = false;                // models' depths went ahead, they are shaded after growth

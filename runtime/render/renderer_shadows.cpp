@@ -13,8 +13,7 @@ constexpr float kStrokeLeafTexels = 16;                      // as Look::leafPix
 constexpr float kStrokeError = 3;                            // times the errors that are allowed otherwise, then
 constexpr uint32_t kShadowTile = 32;                         // texels along a side of what is redrawn after edits
 constexpr uint32_t kShadowRows = kShadowSize / kShadowTile;  // of tiles
-constexpr uint32_t kStrokeTiles = 8, kStrokeFrames = 2;      // so many are redrawn in every second frame of a stroke
-constexpr uint32_t kShadowPeriod = 8;                        // frames, while growth changes in each
+constexpr uint32_t kStrokeTiles = 8;                         // so many are redrawn at once while a stroke goes on
 constexpr float kWideBias = 0.12f;  // metres that what lies far away is moved towards the sun when it is compared
 constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
 
@@ -54,7 +53,9 @@ void RendererImpl::drawStanding(DrawPass& pass, const SunView& sun, float error)
     if (furnished_) props_->drawDepth(pass, *frame_);
 }
 
-Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, bool coarse) {
+Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
+    near_.clear();
+    const bool coarse = near_.coarse();
     FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
     frame.viewProjection = sun.toClip;
     if (Status s = upload(commands, frame); !s) return s;
@@ -69,7 +70,7 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
     if (furnished_)
         if (Status s = props_->chooseCasters(commands, sun.toClip); !s) return s;
     const auto draw = [&](Image& image, bool growth) {
-        commands.transition(image, ImageState::depthTarget, !growth || !wideDrawn_);  // the map's other half stays
+        commands.transition(image, ImageState::depthTarget, !growth || !wide_.drawn());  // the map's other half stays
         DrawTargets targets;
         targets.extent = {kShadowSize, kShadowSize};
         targets.depth = DepthTarget{.view = image.view(), .clear = 1.0f};
@@ -79,14 +80,15 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
     };
     draw(shadowMap_, true);
     commands.transition(shadowMap_, ImageState::sampled);
-    ++shadowsWhole_;
-    shadowKept_ = grows_ && !coarse;
-    if (!shadowKept_) return Done{};
-    if (Status s = makeStanding(); !s) return s;
-    draw(standing_, false);
-    commands.transition(standing_, ImageState::sampled);
-    shadowBindings_ = emit_.wholeBindings();
-    return emit_.watch(commands, grown);
+    const bool kept = grows_ && !coarse;
+    if (kept) {
+        if (Status s = makeStanding(); !s) return s;
+        draw(standing_, false);
+        commands.transition(standing_, ImageState::sampled);
+        if (Status s = emit_.watch(commands, grown); !s) return s;
+    }
+    near_.drewWhole(kept, emit_.wholeBindings());
+    return Done{};
 }
 
 // What reaches tiles that haven't changed leaves there the depths that it left before.
@@ -134,44 +136,39 @@ Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& input
     return Done{};
 }
 
-Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
-                                    float radius, FrameRecord& frame) {
-    const ShadowKey key{0, models_.revision() + (propsRevision_ << 32), frame.sunDirection,       0,
-                        0, roofed_ ? inputs.roofs->revision : 0,        glm::vec4(center, radius)};
-    // If they may lag: while houses change in every frame, shadows far away follow in every eighth and when they rest.
-    wideChanges_ = key == wideBefore_ ? 0 : wideChanges_ + 1;
-    wideBefore_ = key;
-    const bool turned = wideKey_.sun != key.sun;
-    const bool wait =
-        inputs.look.shadowsLag && wideDrawn_ && !turned && wideChanges_ > 2 && wideChanges_ % kShadowPeriod != 0;
-    shadowsBehind_ |= wait;
-    if (!wait && (!wideDrawn_ || wideKey_ != key)) {
-        const SunView wide = makeSunView(key.sun, center, radius);
-        if (Status s = drawWideShadows(commands, inputs, wide); !s) return s;
-        wideKey_ = key;
-        wideToTexture_ = wide.toTexture;
-        wideDrawn_ = true;
-        shadowDrawn_ = false;  // the whole map was cleared
-    }
-    // Both look along the sun: one's coordinates are the other's, scaled and moved.
-    const float scale = near.width / (2 * wideKey_.sphere.w);
-    const glm::vec4 origin(0, 0, 0, 1);
-    frame.wideScale = glm::vec3(scale);
-    frame.wideOffset = glm::vec3(wideToTexture_ * origin) - scale * glm::vec3(near.toTexture * origin);
-    frame.wideOffset.z -= kWideBias / (2 * wideKey_.sphere.w);
-    return Done{};
+ShadowScene RendererImpl::shadowScene(const DrawInputs& inputs, glm::vec3 sun, glm::vec4 sphere) const {
+    const GrowthView& growth = inputs.growth;
+    return {growth.revision,
+            models_.revision() + (propsRevision_ << 32),
+            roofed_ ? inputs.roofs->revision : 0,
+            sun,
+            growth.nodeCount,
+            growth.leafCount,
+            sphere};
 }
 
-RendererImpl::ShadowKey RendererImpl::edited(ShadowKey before, const ShadowKey& now) {
-    before.growth = now.growth;
-    before.nodes = now.nodes;
-    before.leaves = now.leaves;
-    return before;
+Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
+                                    float radius, FrameRecord& frame) {
+    ShadowScene now = shadowScene(inputs, frame.sunDirection, glm::vec4(center, radius));
+    now.growth = now.nodes = now.leaves = 0;  // none of it is in there
+    if (wide_.begin(now, inputs.look.shadowsLag)) {
+        const SunView wide = makeSunView(now.sun, center, radius);
+        near_.clear();  // the whole map is cleared
+        if (Status s = drawWideShadows(commands, inputs, wide); !s) return s;
+        wide_.drew(now, wide.toTexture);
+    }
+    shadowsBehind_ = wide_.behind();
+    // Both look along the sun: one's coordinates are the other's, scaled and moved.
+    const float scale = near.width / (2 * wide_.radius());
+    const glm::vec4 origin(0, 0, 0, 1);
+    frame.wideScale = glm::vec3(scale);
+    frame.wideOffset = glm::vec3(wide_.toTexture() * origin) - scale * glm::vec3(near.toTexture * origin);
+    frame.wideOffset.z -= kWideBias / (2 * wide_.radius());
+    return Done{};
 }
 
 Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame) {
     shadowsBehind_ = false;
-    const GrowthView& growth = inputs.growth;
     glm::vec3 low, high;
     models_.bounds(low, high);
     if (roofed_) {
@@ -194,55 +191,34 @@ Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, F
     frame.shadowTexel = 1.0f / kShadowSize;
     frame.unit = roofed_ ? 1.0f : lengthUnit(high - low);
     frame.shadowOffset = 1.2f * sun.width / kShadowSize;
-    const uint64_t stands = models_.revision() + (propsRevision_ << 32);
-    const ShadowKey key{growth.revision,          stands,           frame.sunDirection,
-                        growth.nodeCount,         growth.leafCount, roofed_ ? inputs.roofs->revision : 0,
-                        glm::vec4(center, radius)};
+    const ShadowScene now = shadowScene(inputs, frame.sunDirection, glm::vec4(center, radius));
     if (furnished_) props_->bounds(low, high);
     const float wideRadius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.02f;
     if (frame.shadows && wideRadius > 1.1f * radius)
         if (Status s = aimWideShadows(commands, inputs, sun, (low + high) * 0.5f, wideRadius, frame); !s) return s;
-    return updateNearShadows(commands, inputs, sun, key);
-}
-
-// In a stroke most pictures leave it as it is, some redraw a few of its tiles: what is left follows when growth rests.
-RendererImpl::NearShadows RendererImpl::nearShadows(const ShadowKey& key, bool stroke) const {
-    const bool onlyGrown = shadowDrawn_ && edited(shadowKey_, key) == key;
-    const bool inTiles = onlyGrown && shadowKept_ && grows_ && shadowBindings_ == emit_.wholeBindings();
-    if (!stroke) return inTiles ? NearShadows::allTiles : NearShadows::whole;
-    if (inTiles) return changes_ % kStrokeFrames == 0 ? NearShadows::fewTiles : NearShadows::stand;
-    return onlyGrown && changes_ % kShadowPeriod != 0 ? NearShadows::stand : NearShadows::whole;
+    return updateNearShadows(commands, inputs, sun, now);
 }
 
 Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun,
-                                       const ShadowKey& key) {
-    changes_ = key.growth == growthBefore_ ? 0 : changes_ + 1;
-    growthBefore_ = key.growth;
-    const bool stroke = inputs.look.shadowsLag && changes_ > 2;
-    const bool coarse = stroke || (inputs.look.shadowsLag && inputs.look.quick);  // they will do
-    const bool asKept = shadowDrawn_ && key == shadowKey_ && (!shadowCoarse_ || coarse);
-    shadowsBehind_ |= inputs.look.shadows && (asKept ? shadowCoarse_ : stroke);
-    if (!inputs.look.shadows || asKept) {
-        if (!shadowDrawn_ && !wideDrawn_)
+                                       const ShadowScene& now) {
+    const Look& look = inputs.look;
+    if (!near_.begin(now, {look.shadows, look.shadowsLag, look.quick})) {
+        shadowsBehind_ |= near_.behind();
+        if (!near_.drawn() && !wide_.drawn())
             commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read
         return Done{};
     }
     if (grows_)
         if (Status s = emit_.bind(commands, emitInputs(inputs)); !s) return s;
-    const NearShadows redrawn = nearShadows(key, stroke);
-    if (redrawn == NearShadows::stand) return Done{};
-    if (redrawn == NearShadows::fewTiles) {
-        ++shadowsTaken_;
-        return redrawShadows(commands, inputs, sun, kStrokeTiles);
+    const NearShadows::Redraw redraw = near_.redraw(grows_, emit_.wholeBindings());
+    if (redraw == NearShadows::Redraw::whole) {
+        if (Status s = drawShadows(commands, inputs, sun); !s) return s;
+    } else if (redraw != NearShadows::Redraw::nothing) {
+        const bool all = redraw == NearShadows::Redraw::allTiles;
+        if (Status s = redrawShadows(commands, inputs, sun, all ? ~0u : kStrokeTiles); !s) return s;
+        all ? near_.drewAllTiles() : near_.drewFewTiles();
     }
-    const bool whole = redrawn == NearShadows::whole;
-    if (!whole) ++shadowsPartly_;
-    if (Status s = whole ? drawShadows(commands, inputs, sun, coarse) : redrawShadows(commands, inputs, sun, ~0u); !s)
-        return s;
-    shadowKey_ = key;
-    shadowCoarse_ = whole && coarse;
-    shadowsBehind_ |= shadowCoarse_;
-    shadowDrawn_ = true;
+    shadowsBehind_ |= near_.behind();
     return Done{};
 }
 

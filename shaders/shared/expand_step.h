@@ -47,6 +47,7 @@ FN uint advanceWalk(ExpandEnv env, uint level, INOUT(WalkState) w, INOUT(float) 
 }
 FN vec3 headingOf(ExpandEnv env, WalkState w) { return PAPER_WALK(env) ? paperHeading3(w) : w.walk.direction; }
 
+CONST_FLOAT(kMostTurn, 8000.0f);            // radians; sinCosExact takes little more
 CONST_UINT(kDetours, 10u);                 // directions tried over the semicircle when the heading fails (§8)
 CONST_FLOAT(kDetourAngle, 0.314159265f);   // between two of them on one side: the last ones go across the heading
 
@@ -198,7 +199,7 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
     g.links = links;
     g.arriveCode = TABLE(at + 3u);
     g.distance = larger(packedValue(MACHINE slots & 127u, TABLE(at + 5u)), site.minStep);
-    g.angle = packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + 6u));
+    g.angle = limited(packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + 6u)), -kMostTurn, kMostTurn);
     g.conditionSlots = slots >> 16u;
     g.conditionValue = TABLE(at + 7u);
     g.reads.uses = g.reads.uses | TABLE(at + 8u);

@@ -59,6 +59,29 @@ TEST_CASE("native code grows what shaders grow") {
     }
 }
 
+// As large as numbers get, also where the lanes of native code are filled otherwise.
+TEST_CASE("turns by any angle are the same in native code and in shaders") {
+    TestDevice gpu;
+    Scene scene = Scene::baked(cube());
+    scene.addGrammar(R"(
+param turn = 1e9 [0 .. 1e9]
+Stem(n) -> Marching(0.04, rand(-1, 1) * turn * 1000, n < 60) {Fork(n + 1), Bark}
+Fork(n) -> Branch(2) {Twig(0), Stem(n)} : 0.3
+Fork(n) -> Stem(n) : 0.7
+Twig(n) -> Marching(0.03, rand(-1, 1) * turn * turn, n < 8) {Twig(n + 1), Bark}
+Bark -> S(0.01) Shape("bark", C1)
+)");
+    scene.plantMany(65);
+    auto shaders = gpu.growth(), native = gpu.growth(), cramped = gpu.growth({16, 64, 16, 16, 4});
+    mustGrow(scene, gpu, *shaders);
+    CHECK(shaders->stats().nodes > 500);
+    scene.native = gpu.device().info().cpu;
+    for (Growth* growth : {native.get(), cramped.get()}) {
+        mustGrow(scene, gpu, *growth);
+        CHECK(growth->stats().hash == shaders->stats().hash);
+    }
+}
+
 TEST_CASE("native code grows where shaders have grown by one surface's words, and there are more surfaces now") {
     TestDevice gpu;
     Scene scene = Scene::baked(cube());

@@ -288,4 +288,16 @@ TEST_CASE("files: a missing one is named, includes stay in their folder") {
           "include \"loop.grammar\"\ninclude \"loop2.grammar\"\nA -> Marching(0.1, 0, true) {A}\n");
     write(folder.path / "loop2.grammar", "include \"loop.grammar\"\n");
     CHECK(compileGrammarFile(folder.path / "loop.grammar"));
+    // Nor is the text read again that a host compiles, whatever folder its name has.
+    CompileOptions options;
+    const std::filesystem::path file = folder.path / "main.grammar";
+    options.fileName = file.string();
+    options.readInclude = includesBeside(file);
+    write(file, "param older = 1\n");
+    write(folder.path / "part.grammar", "include \"main.grammar\"\nB -> Marching(p, 0, true) {B}\n");
+    Result<RuleMap> map =
+        compileGrammar("include \"part.grammar\"\nparam p = 0.1\nA -> Marching(p, 0, true) {A}\n", options);
+    if (!map) FAIL(map.failure().text());
+    CHECK(map->params().size() == 1);
+    CHECK(map->symbols().size() == 2);
 }

@@ -39,12 +39,13 @@ context mask = 0.6
 param length = 0.8 [0.1 .. 3]
 param girth = 0.01 [0.004 .. 0.2]
 param climb = 0.3 [0 .. 1]
+param lean = 0.3 [-2 .. 2]
 width girth
 Vine -> Branch(3) {Up(length), Up(length * 0.7), Up(length * 0.5)}
 Up(l) : arc >= l * mix(0.4, 1, damp(texCoord)) -> NULL
 Up(l) : depth < 3 and rand() < 0.1 -> Branch(2) {Go(l), Go(l - arc)}
 Up(l) -> Go(l)
-Go(l) -> Marching(0.06, clamp(angleTo(up) * climb, -0.2, 0.2) + rand(-0.3, 0.3), mask(texCoord) > 0.2) {Up(l), Wood Last}
+Go(l) -> Marching(0.06, clamp(angleTo(lean, 1, 0) * climb, -0.2, 0.2) + rand(-0.3, 0.3), mask(texCoord) > 0.2) {Up(l), Wood Last}
 Wood -> S(girth) Shape("bark", C1)
 Last -> Repeat(every(0.05)) {S(0.04 * rand(0.6, 1)) T(rand(), 0.02) R(rand(-1, 1), 0.3) Tint(damp(texCoord)) Shape("leaf")}
 )"};

@@ -121,7 +121,23 @@ struct Painting {
         ok(espReadStats(context, &stats));
         return stats;
     }
+    // Of what stands, which is what growing all anew gives.
+    uint64_t hash() const {
+        const uint64_t stands = grown().hash;
+        EspGrowDef grow = espDefaultGrowDef();
+        grow.maxDepth = 100 + timesAnew++;
+        ok(espSetGrow(context, &grow));
+        CHECK(grown().hash == stands);
+        return stands;
+    }
+    mutable uint32_t timesAnew = 0;
 };
+
+inline EspTransform movedBy(glm::vec3 by) {
+    EspTransform place = espIdentity();
+    for (int i = 0; i < 3; ++i) place.rows[i][3] = by[i];
+    return place;
+}
 
 inline EspBrush brushOn(const char* layer, float radius, float strength = 1, float hardness = 0) {
     EspBrush brush = espDefaultBrush();

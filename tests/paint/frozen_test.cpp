@@ -18,16 +18,7 @@ struct TwoSeeds {
 
     void number(EspSeed seed, uint32_t to) const { painting.ok(espSetSeedNumber(painting.context, seed, to, 1)); }
     void freeze(EspSeed seed, int frozen = 1) const { painting.ok(espFreezePlant(painting.context, seed, frozen)); }
-    // As it stands, and grown all anew.
-    uint64_t hash() const {
-        const uint64_t stands = painting.grown().hash;
-        EspGrowDef grow = espDefaultGrowDef();
-        grow.maxDepth = 100 + depth++;
-        painting.ok(espSetGrow(painting.context, &grow));
-        CHECK(painting.grown().hash == stands);
-        return stands;
-    }
-    mutable uint32_t depth = 0;
+    uint64_t hash() const { return painting.hash(); }
 };
 
 }  // namespace

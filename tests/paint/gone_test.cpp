@@ -10,12 +10,6 @@ using namespace espalier::test;
 
 namespace {
 
-EspTransform movedBy(glm::vec3 by) {
-    EspTransform place = espIdentity();
-    for (int i = 0; i < 3; ++i) place.rows[i][3] = by[i];
-    return place;
-}
-
 // Two cubes that run into each other. A stem goes from the first over to the second.
 struct TwoCubes {
     Painting painting;
@@ -78,6 +72,20 @@ TEST_CASE("a plant whose surface has gone, or is larger, isn't frozen before it 
     for (int i = 0; i < 3; ++i) larger.rows[i][i] = 1.5f;
     two.painting.ok(espMoveSurface(context, two.painting.surface, &larger));
     CHECK(espFreezePlant(context, two.seed, 1) == ESP_INVALID_ARGUMENT);
+}
+
+TEST_CASE("shaders grow what native code grows where the only surface isn't the first of the table") {
+    const Painting painting;
+    const EspSurface second = painting.another(movedBy({5, 0, 0}));
+    painting.ok(espDestroySurface(painting.context, painting.surface));
+    painting.plant(painting.grammar(kMaskedIvy), kFoot + glm::vec3(5, 0, 0), kUp);
+    const EspStats native = painting.grown();
+    CHECK(native.nodes > 20);
+    EspGrowDef grow = espDefaultGrowDef();
+    grow.shadersOnly = 1;
+    painting.ok(espSetGrow(painting.context, &grow));
+    CHECK(painting.grown().hash == native.hash);
+    painting.ok(espDestroySurface(painting.context, second));
 }
 
 TEST_CASE("a frozen plant turns with its surface, by any angle") {

@@ -349,6 +349,21 @@ TEST_CASE("a dab beside a plant costs no growth, nor does its undoing, and dabs 
     }
 }
 
+TEST_CASE("a parameter that only a direction is worked out from grows plants anew") {
+    const Painting painting;
+    const EspGrammar vine = painting.grammar(
+        "param wind = 0 [-3 .. 3]\n"
+        "Vine -> Branch(2) {Go, Go}\n"
+        "Go : arc > 2 -> NULL\n"
+        "Go -> Marching(0.05, angleTo(wind, 1, 0) * 0.3, true) {Go, Wood}\n"
+        "Wood -> S(0.01) Shape(\"bark\", C1)\n");
+    painting.plant(vine, kFoot, kUp);
+    const uint64_t calm = painting.hash();
+    const float wind = 2;
+    painting.ok(espSetParam(painting.context, vine, "wind", &wind, 1));
+    CHECK(painting.hash() != calm);
+}
+
 TEST_CASE("painting refuses what isn't a brush, a dab or a stroke, and stays as it was") {
     Painting painting;
     EspStroke stroke{};
