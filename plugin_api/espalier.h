@@ -303,7 +303,7 @@ typedef struct EspLook {         /* all numbers finite */
     EspView view;
     const char* viewLayer;       /* for ESP_VIEW_LAYER: a layer, or one of colours */
     float viewOpacity;           /* 0 to 1: of that layer over models and roofs; default 1 */
-    const EspBrush* viewBrush;   /* for ESP_VIEW_LAYER: where its slopes and heights let no paint pass the surfaces are hatched, and
+    const EspBrush* viewBrush;   /* for ESP_VIEW_LAYER, else not looked at: where its slopes and heights let no paint pass the surfaces are hatched, and
                                     the more faintly the more passes; NULL: nowhere */
     uint32_t viewLevel;          /* for ESP_VIEW_CHARTS: the level whose charts and links are shown */
     float lodPixels;       /* error allowed when choosing LOD, pixels; default 1 */
@@ -344,7 +344,8 @@ typedef struct EspHostScene {
  * The buffer is a primary one; pipelines, descriptor sets, push constants and dynamic state aren't what they were afterwards.
  * On failure it may hold a part of the picture: record it anew, or call espDropFrame.
  * What was recorded has to be submitted to EspHostDevice::queue before the next call that changes the context
- * (espUpdate, espLoadSurface, espStrokeDabs ...): `frame` and `framesDone` tell Espalier how long it must keep what that
+ * (espUpdate, espLoadSurface, espStrokeDabs ...) or draws and waits itself (espDraw without a command buffer,
+ * espMaterialise), since that goes to the queue first and takes what the recording is to read: `frame` and `framesDone` tell Espalier how long it must keep what that
  * frame reads. A host that stops drawing (a menu, a minimised window) need not tell: the next espUpdate or stroke submits
  * behind its last frame, and once that is done, so is the frame. */
 typedef struct EspDrawDef {

@@ -93,7 +93,7 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     look.leafPixels = from.leafPixels;
     look.layerOpacity = from.viewOpacity;
     look.level = from.viewLevel;
-    if (from.viewBrush) {
+    if (from.view == ESP_VIEW_LAYER && from.viewBrush) {
         if (const char* mistake = mistakeIn(*from.viewBrush))
             return fail(&context, ESP_INVALID_ARGUMENT, std::string("espDraw: viewBrush: ") + mistake);
         look.limits = limitsOf(*from.viewBrush);
@@ -122,12 +122,14 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
     if (context.town) {
         inputs.roofs = &context.town->view;
         inputs.ground = context.town->ground;
-        context.town->view.shownLayer = shownTownLayer(context, def.look.viewLayer ? def.look.viewLayer : "");
+        const bool shows = def.look.view == ESP_VIEW_LAYER && def.look.viewLayer;
+        context.town->view.shownLayer = shownTownLayer(context, shows ? def.look.viewLayer : "");
     }
     if (def.look.ground) {
         inputs.ground.drawn = true;
         inputs.ground.height = def.look.groundLevel;
     }
+    if (def.scene) inputs.ground.drawn = false;  // the ground of a host's scene is the host's
     inputs.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
     inputs.surfacesRevision = context.tablesRevision;
     inputs.layers = addressOf<LayerBuf>(context.layerTable);

@@ -39,6 +39,7 @@ EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices,
     env.meshes.v = context.roofBounds.data();
     env.layers.v = layers;
     env.site = context.town->layers.site();
+    const size_t plants = vertices.size() + indices.size();
     RoofTriangles part;
     for (const RoofGrid& grid : records->grids) {
         if (records->generations[grid.house & 0xFFFFFFu] != grid.house >> 24) continue;
@@ -47,7 +48,8 @@ EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices,
         part.colours.clear();
         part.indices.clear();
         appendGrid(env, grid, *context.roofMeshes, part);
-        if (vertices.size() + indices.size() + part.positions.size() * 16 + part.indices.size() * 4 > kMostBytes)
+        if (vertices.size() + indices.size() - plants + part.positions.size() * 16 + part.indices.size() * 4 >
+            kMostBytes)
             return fail(&context, ESP_OUT_OF_MEMORY, "espMaterialise: the town's triangles are more than 2 GiB");
         const uint32_t first = uint32_t(vertices.size() / sizeof(TriangleVertex));
         for (size_t i = 0; i < part.positions.size(); ++i)

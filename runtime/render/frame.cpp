@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/render/targets.hpp"
+
 namespace espalier {
 namespace {
 
@@ -87,14 +89,17 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     return frame;
 }
 
-SunView makeSunView(glm::vec3 sunDirection, glm::vec3 center, float radius) {
+SunView makeSunView(glm::vec3 sunDirection, glm::vec3 center, float radius, float towards) {
     glm::vec3 right, up;
     const glm::vec3 forward = -unitOr(sunDirection, {0, 1, 0});
-    const glm::mat4 view = viewMatrix(center - forward * radius, forward, {0, 1, 0}, right, up);
+    towards = std::max(towards, radius);
+    glm::mat4 view = viewMatrix(center - forward * towards, forward, {0, 1, 0}, right, up);
+    const float texel = 2 * radius / kShadowSize;
+    for (int i : {0, 1}) view[3][i] = std::round(view[3][i] / texel) * texel;
     glm::mat4 projection(1);
     projection[0][0] = 1 / radius;
     projection[1][1] = -1 / radius;
-    projection[2][2] = -0.5f / radius;
+    projection[2][2] = -1 / (towards + radius);
     SunView sun;
     sun.toClip = projection * view;
     glm::mat4 toTexture(1);
@@ -102,6 +107,7 @@ SunView makeSunView(glm::vec3 sunDirection, glm::vec3 center, float radius) {
     toTexture[3] = glm::vec4(0.5f, 0.5f, 0, 1);
     sun.toTexture = toTexture * sun.toClip;
     sun.width = 2 * radius;
+    sun.depth = towards + radius;
     return sun;
 }
 

@@ -18,7 +18,9 @@ struct SunView {
     glm::mat4 toClip{1};
     glm::mat4 toTexture{1};  // world -> texture coordinates and depth
     float width = 1;         // metres that the map covers
+    float depth = 1;         // and along the sun
 };
-SunView makeSunView(glm::vec3 sunDirection, glm::vec3 center, float radius);
+// Of a sphere, moved to whole texels, and of what casts from so far towards the sun, at least the sphere's radius.
+SunView makeSunView(glm::vec3 sunDirection, glm::vec3 center, float radius, float towards = 0);
 
 }  // namespace espalier

@@ -2,6 +2,7 @@
 #include "runtime/render/models.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "runtime/gpu/color_texture.hpp"
@@ -30,9 +31,9 @@ void takeModelVertices(GraphicsDesc& desc) {
                    {3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(DrawVertex, uv)}};  // and walkUv
 }
 
-void takeModelPositions(GraphicsDesc& desc) {
+void takeModelPositions(GraphicsDesc& desc, bool pictured) {
     takeModelVertices(desc);
-    desc.inputs.resize(1);
+    desc.inputs.erase(desc.inputs.begin() + 1, pictured ? desc.inputs.end() - 1 : desc.inputs.end());
 }
 
 Result<Models> Models::create(Device& device) {
@@ -190,6 +191,15 @@ void Models::bounds(glm::vec3& low, glm::vec3& high) const {
         low = glm::min(low, model.low);
         high = glm::max(high, model.high);
     }
+}
+
+float Models::leastSize() const {
+    float least = models_.empty() ? 1.0f : std::numeric_limits<float>::max();
+    for (const auto& [index, model] : models_) {
+        const glm::vec3 size = model.high - model.low;
+        least = std::min(least, std::max({size.x, size.y, size.z}));
+    }
+    return least;
 }
 
 }  // namespace espalier

@@ -13,9 +13,10 @@
 
 namespace espalier {
 
-// What render/model.vert reads of a vertex, and what render/model_depth.vert does.
+// What render/model.vert reads of a vertex, and what render/model_depth.vert does. pictured: also the place in its
+// picture, as render/model_cut_depth.vert.
 void takeModelVertices(GraphicsDesc& desc);
-void takeModelPositions(GraphicsDesc& desc);
+void takeModelPositions(GraphicsDesc& desc, bool pictured = false);
 
 // The drawn meshes of the surfaces on the GPU, with their textures.
 class Models {
@@ -51,7 +52,7 @@ class Models {
     // models of which two meshes are drawn.
     void drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame) const;
     // The simplest meshes with an error of at most `error` metres.
-    void drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const;
+    void drawDepth(DrawPass& pass, const Program& whole, const Program& cut, const Buffer& frame, float error) const;
 
     uint64_t triangles() const;                      // that are drawn, as chosen
     uint32_t fading() const;                         // models of which two meshes are drawn
@@ -59,6 +60,8 @@ class Models {
     bool empty() const { return models_.empty(); }
     // World bounds of all models; a small box around the origin if there are none.
     void bounds(glm::vec3& low, glm::vec3& high) const;
+    // The longest side of the smallest one, metres; 1 if there are none.
+    float leastSize() const;
 
   private:
     // Triangles of a range lie in order of the storey that their lowest corner is in: so many indices are in each and

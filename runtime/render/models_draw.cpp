@@ -22,6 +22,7 @@ glm::vec4 shownColor(const Material& material) {
     return lost ? glm::vec4(0.30f, 0.285f, 0.26f, c.w) : c;
 }
 
+constexpr float kJump = 0.3f;            // of its distance from a model: an eye that moves by more looks from elsewhere
 constexpr float kMeadowReach = 0.0895f;  // units above the ground to which model.frag's addMeadow() has an effect
 
 }  // namespace
@@ -56,6 +57,7 @@ uint32_t Models::simplest(const Model& model, float error) {
 }
 
 void Models::choose(const FrameRecord& frame, float pixels, bool atOnce) {
+    const float moved = glm::length(frame.eye - eye_);
     eye_ = frame.eye;
     groundLevel_ = frame.groundLevel;
     const ViewSides sides(frame.viewProjection);
@@ -67,7 +69,8 @@ void Models::choose(const FrameRecord& frame, float pixels, bool atOnce) {
         }
         const float distance = glm::length(eye_ - glm::clamp(eye_, model.low, model.high));
         const uint32_t wanted = simplest(model, pixels * distance / frame.pixelScale);
-        if (model.step == 0 || !model.seen || atOnce) {  // where nothing was seen before, too
+        const bool otherView = moved > kJump * (distance + frame.unit);  // a cut, or another of several cameras
+        if (model.step == 0 || !model.seen || atOnce || otherView) {     // where nothing was seen before, too
             model.shown = wanted;
             model.step = kFadeFrames;
         } else if (model.step < kFadeFrames && wanted == model.before) {
@@ -163,7 +166,8 @@ void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fadi
     pass.drawBacks(true);
 }
 
-void Models::drawDepth(DrawPass& pass, const Program& program, const Buffer& frame, float error) const {
+void Models::drawDepth(DrawPass& pass, const Program& whole, const Program& cut, const Buffer& frame,
+                       float error) const {
     for (const auto& [index, model] : models_) {
         if (model.groundOnly) continue;
         pass.setVertices(model.vertices);
@@ -171,8 +175,13 @@ void Models::drawDepth(DrawPass& pass, const Program& program, const Buffer& fra
         const uint32_t mesh = simplest(model, error);
         for (const DrawRange& range : model.meshes[mesh].ranges) {
             const Material& material = model.materialOf(range);
-            pass.drawIndexed(program, {range.indexCount, range.firstIndex, model.meshes[mesh].firstVertex},
-                             pushOf(model, mesh, material, index), {frame});
+            const DrawPass::IndexRange draw{range.indexCount, range.firstIndex, model.meshes[mesh].firstVertex};
+            const ModelPush push = pushOf(model, mesh, material, index);
+            if (material.alphaCutoff > 0)
+                pass.drawIndexed(cut, draw, push,
+                                 {{pictureOr(model.colors, material.baseColorImage, white_), sampler_}, frame});
+            else
+                pass.drawIndexed(whole, draw, push, {frame});
         }
     }
 }

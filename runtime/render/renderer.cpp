@@ -134,10 +134,18 @@ Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, co
     return Done{};
 }
 
+EmitInputs RendererImpl::within(EmitInputs inputs) const {
+    if (!models_.empty()) models_.bounds(inputs.low, inputs.high);
+    return inputs;
+}
+
 EmitInputs RendererImpl::emitInputs(const DrawInputs& inputs) const {
-    EmitInputs given{inputs.growth, inputs.surfaces, inputs.surfacesRevision};
-    if (!models_.empty()) models_.bounds(given.low, given.high);
-    return given;
+    return within({inputs.growth, inputs.surfaces, inputs.surfacesRevision});
+}
+
+// As pictures bind it, so that the next one needn't bind it again.
+Result<EmittedTriangles> RendererImpl::materialise(const EmitInputs& inputs) {
+    return emit_.materialise(within(inputs));
 }
 
 // Of what hides growth: another one where tiles may say something else. A host's scene or a level that fades hides

@@ -38,7 +38,7 @@ class RendererImpl final : public Renderer {
     void trim(const GrowthView& growth) override { emit_.trim(growth); }
     Result<std::vector<uint8_t>> readPixels() override;
     RenderStats stats() const override;
-    Result<EmittedTriangles> materialise(const EmitInputs& inputs) override { return emit_.materialise(inputs); }
+    Result<EmittedTriangles> materialise(const EmitInputs& inputs) override;
 
   private:
     Status makePrograms();
@@ -73,6 +73,7 @@ class RendererImpl final : public Renderer {
                           float radius, FrameRecord& frame);
     void drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post);
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
+    EmitInputs within(EmitInputs inputs) const;  // the bounds of all models
     EmitInputs emitInputs(const DrawInputs& inputs) const;
     uint64_t sceneOf(const DrawInputs& inputs);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
@@ -103,8 +104,8 @@ class RendererImpl final : public Renderer {
     ScenePrograms scenes_[kShadings];     // each made when first asked for
     ScenePrograms* scene_ = &scenes_[0];  // of this recording
     Shading shading_ = Shading::full;
-    Program modelAhead_, modelAheadFading_, modelDepth_, barkDepth_, leafDepth_, leafCutDepth_, distance_, occlusion_,
-        shadowRestore_;
+    Program modelAhead_, modelAheadFading_, modelDepth_, modelCutDepth_, barkDepth_, leafDepth_, leafCutDepth_,
+        distance_, occlusion_, shadowRestore_;
     Program sky_[2];                                       // without and with hills
     using ResolveKind = std::tuple<VkFormat, bool, bool>;  // format, whether the view counts, whether it is quick
     std::map<ResolveKind, Program> resolves_;

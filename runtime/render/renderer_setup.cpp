@@ -30,6 +30,7 @@ Status RendererImpl::makePrograms() {
         desc.depthBiasConstant = 2;
         desc.depthBiasSlope = 1.8f;
         if (&program == &modelDepth_) takeModelPositions(desc);
+        if (&program == &modelCutDepth_) takeModelPositions(desc, true);
         Result<Program> made = Program::graphics(device_, desc);
         if (!made) return made.failure();
         program = std::move(*made);
@@ -81,6 +82,7 @@ Status RendererImpl::makePrograms() {
     };
     const Status all[] = {
         shadow(modelDepth_, "model shadow", "render/model_depth.vert", ""),
+        shadow(modelCutDepth_, "cut model shadow", "render/model_cut_depth.vert", "render/model_shadow.frag"),
         shadow(barkDepth_, "bark shadow", "render/bark.vert", ""),
         shadow(leafDepth_, "leaf shadow", "render/leaf.vert", ""),
         shadow(leafCutDepth_, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag"),

@@ -13,14 +13,15 @@ constexpr float kStrokeLeafTexels = 16;                      // as Look::leafPix
 constexpr float kStrokeError = 3;                            // times the errors that are allowed otherwise, then
 constexpr uint32_t kShadowTile = 32;                         // texels along a side of what is redrawn after edits
 constexpr uint32_t kShadowRows = kShadowSize / kShadowTile;  // of tiles
+constexpr float kFineRadius = 24;                            // metres: a texel is 2.3 cm then
 constexpr uint32_t kStrokeTiles = 8;                         // so many are redrawn at once while a stroke goes on
 constexpr float kWideBias = 0.12f;  // metres that what lies far away is moved towards the sun when it is compared
 constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
 
-// Metres, unless the models are far too small or too large for that: then their longest side counts as six.
-float lengthUnit(glm::vec3 size) {
-    const float side = std::max({size.x, size.y, size.z});
-    return side > 1.0f && side < 200.0f ? 1.0f : std::max(side, 1e-6f) / 6;
+// Metres, unless all models are far too small or too large for that: then the smallest one's longest side counts as
+// six.
+float lengthUnit(float side) {
+    return side >= 1.0f && side < 200.0f ? 1.0f : std::max(side, 1e-6f) / 6;
 }
 
 // Bark and leaves as the near map has them.
@@ -31,6 +32,14 @@ EmitView grownShadows(const SunView& sun, float error) {
     view.width = view.height = kShadowSize;
     view.tilePixels = kShadowTile;
     return view;
+}
+
+// Seen from the sun, so far away that all looks the same way.
+FrameRecord shadowFrame(const DrawInputs& inputs, const SunView& sun) {
+    FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
+    frame.viewProjection = sun.toClip;
+    frame.eye = 1e6f * sun.width * frame.sunDirection;
+    return frame;
 }
 
 }  // namespace
@@ -48,7 +57,7 @@ Status RendererImpl::makeStanding() {
 
 // error: times what is allowed otherwise.
 void RendererImpl::drawStanding(DrawPass& pass, const SunView& sun, float error) {
-    models_.drawDepth(pass, modelDepth_, *frame_, error * kShadowModelTexels * sun.width / kShadowSize);
+    models_.drawDepth(pass, modelDepth_, modelCutDepth_, *frame_, error * kShadowModelTexels * sun.width / kShadowSize);
     if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr);
     if (furnished_) props_->drawDepth(pass, *frame_);
 }
@@ -56,9 +65,7 @@ void RendererImpl::drawStanding(DrawPass& pass, const SunView& sun, float error)
 Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
     near_.clear();
     const bool coarse = near_.coarse();
-    FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
-    frame.viewProjection = sun.toClip;
-    if (Status s = upload(commands, frame); !s) return s;
+    if (Status s = upload(commands, shadowFrame(inputs, sun)); !s) return s;
     const float error = coarse ? kStrokeError : 1;
     EmitView grown = grownShadows(sun, error);
     if (coarse) thinOut(grown, kStrokeLeafTexels);
@@ -94,9 +101,7 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
 // What reaches tiles that haven't changed leaves there the depths that it left before.
 Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun,
                                    uint32_t mostTiles) {
-    FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
-    frame.viewProjection = sun.toClip;
-    if (Status s = upload(commands, frame); !s) return s;
+    if (Status s = upload(commands, shadowFrame(inputs, sun)); !s) return s;
     const EmitView changes = emit_.takeChanges(commands, emitInputs(inputs), mostTiles);
     if (Status s = emit_.cull(commands, emitInputs(inputs), changes, "shadow emit", false); !s) return s;
     commands.transition(shadowMap_, ImageState::depthTarget);
@@ -114,9 +119,7 @@ Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs,
 }
 
 Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
-    FrameRecord frame = makeFrame(inputs, kShadowSize, kShadowSize);
-    frame.viewProjection = sun.toClip;
-    if (Status s = upload(commands, frame); !s) return s;
+    if (Status s = upload(commands, shadowFrame(inputs, sun)); !s) return s;
     const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, kShadowLodPixels);
     if (roofed_)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, true, "shadow emit"); !s) return s;
@@ -139,7 +142,7 @@ Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& input
 ShadowScene RendererImpl::shadowScene(const DrawInputs& inputs, glm::vec3 sun, glm::vec4 sphere) const {
     const GrowthView& growth = inputs.growth;
     return {growth.revision,
-            models_.revision() + (propsRevision_ << 32),
+            models_.revision() + (furnished_ ? propsRevision_ << 32 : 0),
             roofed_ ? inputs.roofs->revision : 0,
             sun,
             growth.nodeCount,
@@ -159,11 +162,11 @@ Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs
     }
     shadowsBehind_ = wide_.behind();
     // Both look along the sun: one's coordinates are the other's, scaled and moved.
-    const float scale = near.width / (2 * wide_.radius());
+    const float wide = 2 * wide_.radius();
     const glm::vec4 origin(0, 0, 0, 1);
-    frame.wideScale = glm::vec3(scale);
-    frame.wideOffset = glm::vec3(wide_.toTexture() * origin) - scale * glm::vec3(near.toTexture * origin);
-    frame.wideOffset.z -= kWideBias / (2 * wide_.radius());
+    frame.wideScale = glm::vec3(near.width, near.width, near.depth) / wide;
+    frame.wideOffset = glm::vec3(wide_.toTexture() * origin) - frame.wideScale * glm::vec3(near.toTexture * origin);
+    frame.wideOffset.z -= kWideBias / wide;
     return Done{};
 }
 
@@ -177,8 +180,8 @@ Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, F
     }
     float radius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.06f;
     glm::vec3 center = (low + high) * 0.5f;
-    // A town is larger than a map of shadows can resolve: it covers what is looked at.
-    if (roofed_) {
+    // A town, or a wide scene, is larger than a map of shadows can resolve: it covers what is looked at.
+    if (roofed_ || radius > kFineRadius) {
         const float reach =
             std::exp2(std::ceil(std::log2(1.6f * glm::length(inputs.camera.target - inputs.camera.eye))));
         if (reach < radius) {
@@ -186,16 +189,19 @@ Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, F
             center = glm::round(inputs.camera.target / (0.125f * radius)) * (0.125f * radius);
         }
     }
-    const SunView sun = makeSunView(frame.sunDirection, center, radius);
+    frame.unit = roofed_ ? 1.0f : lengthUnit(models_.leastSize());
+    if (furnished_) props_->bounds(low, high);
+    const glm::vec3 wideCenter = (low + high) * 0.5f;
+    const float wideRadius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.02f;
+    // What casts stands within the wide sphere.
+    const SunView sun =
+        makeSunView(frame.sunDirection, center, radius, glm::dot(wideCenter - center, frame.sunDirection) + wideRadius);
     frame.shadowMatrix = sun.toTexture;
     frame.shadowTexel = 1.0f / kShadowSize;
-    frame.unit = roofed_ ? 1.0f : lengthUnit(high - low);
     frame.shadowOffset = 1.2f * sun.width / kShadowSize;
     const ShadowScene now = shadowScene(inputs, frame.sunDirection, glm::vec4(center, radius));
-    if (furnished_) props_->bounds(low, high);
-    const float wideRadius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.02f;
     if (frame.shadows && wideRadius > 1.1f * radius)
-        if (Status s = aimWideShadows(commands, inputs, sun, (low + high) * 0.5f, wideRadius, frame); !s) return s;
+        if (Status s = aimWideShadows(commands, inputs, sun, wideCenter, wideRadius, frame); !s) return s;
     return updateNearShadows(commands, inputs, sun, now);
 }
 

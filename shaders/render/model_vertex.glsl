@@ -1,4 +1,5 @@
-// A vertex of the surface's own mesh: all that shading asks for, or, where ESPALIER_DEPTH_ONLY is defined, its place.
+// A vertex of the surface's own mesh: all that shading asks for, or, where ESPALIER_DEPTH_ONLY is defined, its place, with
+// ESPALIER_CUT_OUT also where it lies in its picture.
 // Drawn twice: what is shaded must meet the depth that went ahead, so positions are never fused or reordered.
 #include "shaders/render/frame.glsl"
 
@@ -12,6 +13,9 @@ layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 uvs;
+#elif defined(ESPALIER_CUT_OUT)
+layout(location = 3) in vec4 vertexUvs;
+layout(location = 0) out vec2 uv;
 #endif
 
 // Of a row of the placing matrix. No dot product: that would be left to the compiler.
@@ -28,6 +32,8 @@ void main() {
     tangent = vec4(dot(push.toWorld[0].xyz, vertexTangent.xyz), dot(push.toWorld[1].xyz, vertexTangent.xyz),
                    dot(push.toWorld[2].xyz, vertexTangent.xyz), vertexTangent.w);
     uvs = vertexUvs;
+#elif defined(ESPALIER_CUT_OUT)
+    uv = vertexUvs.xy;
 #endif
     precise vec4 clip = frame.viewProjection * vec4(at, 1.0);
     gl_Position = clip;

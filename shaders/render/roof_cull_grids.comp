@@ -18,8 +18,13 @@ void main() {
     if (env.table.v[0].kinds[g.mesh & 255u].variantCount == 0u) return;
     bool many = g.firstRow != kNoIndex;
     vec2 size = many ? min(g.extent, g.step * vec2(g.cells & 0xFFFFu, g.cells >> 16u)) : g.size;
-    vec3 center = g.origin + g.axisX * (0.5 * size.x) + g.axisY * (0.5 * size.y);
-    float reach = 0.5 * length(size) + 0.5 * g.thickness;
+    // Meshes may stand out of their cells.
+    RoofMesh mesh = env.roofs.meshes.v[g.mesh & 255u];
+    vec3 low = vec3(min(mesh.low.xy, vec2(0.0)) * g.size, mesh.low.z * g.thickness);
+    vec3 high = vec3(size + max(mesh.high.xy - 1.0, vec2(0.0)) * g.size, mesh.high.z * g.thickness);
+    vec3 middle = 0.5 * (low + high);
+    vec3 center = g.origin + g.axisX * middle.x + g.axisY * middle.y + cross(g.axisX, g.axisY) * middle.z;
+    float reach = 0.5 * length(high - low) + max(abs(g.taper.x), abs(g.taper.y));
     EmitView view = env.view.v[0];
     if (outside(view, center, reach) || hidden(view, center, reach)) return;
     float far = view.parallel != 0u ? 1.0 : max(distance(view.eye, center) - reach, 0.05);

@@ -98,6 +98,8 @@ void badArguments(EspContext* context) {
     draw = espDefaultDrawDef();
     EspBrush nameless = espDefaultBrush();
     draw.look.viewBrush = &nameless;
+    OK(context, espDraw(context, &draw)); /* it is for the view of a layer */
+    draw.look.view = ESP_VIEW_LAYER;
     REFUSED(espDraw(context, &draw));
     uint8_t pixel[4];
     REFUSED(espReadPixels(context, pixel, sizeof pixel));

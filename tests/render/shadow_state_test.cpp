@@ -3,6 +3,12 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <random>
+
+#include "runtime/render/frame.hpp"
+#include "runtime/render/targets.hpp"
+
 using namespace espalier;
 using Redraw = NearShadows::Redraw;
 
@@ -59,7 +65,7 @@ TEST_CASE(
     for (uint64_t growth = 2; growth < 20; ++growth) {
         REQUIRE(near.begin(scene(growth), kPainting));
         const Redraw redraw = near.redraw(true, 1);
-        if (growth < 4) {  // no stroke yet
+        if (growth < 3) {  // no stroke yet
             CHECK(redraw == Redraw::allTiles);
             near.drewAllTiles();
             continue;
@@ -70,7 +76,7 @@ TEST_CASE(
         if (redraw == Redraw::fewTiles) near.drewFewTiles();
     }
     CHECK(few == 8);
-    CHECK(none == 8);
+    CHECK(none == 9);
     CHECK(near.begin(scene(19), kPainting));
     CHECK(near.redraw(true, 1) == Redraw::allTiles);
     near.drewAllTiles();
@@ -124,4 +130,27 @@ TEST_CASE("shadows far away follow in every eighth picture while houses change, 
     CHECK(wide.begin(turned, true));  // which the near half can't do without
     wide.drew(turned, glm::mat4(1));
     CHECK(!wide.begin(turned, true));
+}
+
+TEST_CASE("the sun sees all that casts from towards it, and its texels stay where they are while the sphere moves") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    const glm::vec3 sunward = glm::normalize(glm::vec3(.5f, .3f, .2f)), place(1, 2, 3);
+    const glm::vec3 first(makeSunView(sunward, place, 8, 90).toTexture * glm::vec4(place, 1));
+    for (int i = 0; i < 100; ++i) {
+        const glm::vec3 center = place + 5.0f * glm::vec3(unit(random), unit(random), unit(random));
+        const SunView sun = makeSunView(sunward, center, 8, 90);
+        for (float towards : {-7.9f, 0.0f, 89.9f}) {
+            const glm::vec3 at(sun.toTexture * glm::vec4(center + towards * sunward, 1));
+            CHECK(std::abs(at.x - .5f) < 1e-3f);
+            CHECK(std::abs(at.y - .5f) < 1e-3f);
+            CHECK(at.z > 0);
+            CHECK(at.z < 1);
+        }
+        const glm::vec3 moved = (glm::vec3(sun.toTexture * glm::vec4(place, 1)) - first) * float(kShadowSize);
+        CHECK(std::abs(moved.x - std::round(moved.x)) < .02f);
+        CHECK(std::abs(moved.y - std::round(moved.y)) < .02f);
+        CHECK(sun.depth == doctest::Approx(98));
+    }
+    CHECK(makeSunView(sunward, place, 8).depth == doctest::Approx(16));
 }
