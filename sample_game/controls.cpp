@@ -48,8 +48,7 @@ void Controls::noteTools() {
 void Controls::setEditing(bool editing) {
     cancelTools();
     catchMouse(false);
-    work_.editing = editing;
-    work_.redraw = true;
+    work_.setEditing(editing);
 }
 
 void Controls::askToQuit() {

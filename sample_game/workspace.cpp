@@ -158,13 +158,21 @@ void Workspace::takeBack(uint32_t gesture) {
 }
 
 void Workspace::choose(Tool chosen) {
-    using espalier::document::SetView;
-    const bool layer = scene().look.view == ESP_VIEW_LAYER;
-    if (chosen == Tool::paint && tool != Tool::paint && scene().look.view == ESP_VIEW_SHADED && !brush.layer.empty() &&
-        !townLayer(brush.layer))
-        perform(SetView{"layer", brush.layer});
-    if (chosen != Tool::paint && tool == Tool::paint && layer) perform(SetView{"shaded", ""});
+    if (chosen == Tool::paint && tool != Tool::paint) seePaint(true);
+    if (chosen != Tool::paint && tool == Tool::paint) seePaint(false);
     tool = chosen;
+}
+
+void Workspace::setEditing(bool edits) {
+    if (tool == Tool::paint && edits != editing) seePaint(edits);
+    editing = edits;
+    redraw = true;
+}
+
+void Workspace::seePaint(bool seen) {
+    const EspView view = scene().look.view;
+    if (seen && view == ESP_VIEW_SHADED && !brush.layer.empty() && !townLayer(brush.layer)) showLayer(true);
+    if (!seen && view == ESP_VIEW_LAYER) showLayer(false);
 }
 
 void Workspace::showAtlas(bool shown) {

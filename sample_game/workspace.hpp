@@ -131,8 +131,9 @@ struct Workspace {
     };
     Hands hands() const;
     void takeUp(const Hands& hands);  // what was said of the reload stays
-    // Painting shows what is painted, everything else the scene.
+    // Painting shows what is painted, everything else the scene; so does walking, whatever tool waits.
     void choose(Tool chosen);
+    void setEditing(bool edits);
     void showGrammar(bool shown, uint32_t index) { layout.grammar = shown, openGrammar = index; }
     void showAtlas(bool shown);  // where there is none, that is told
     // A number for the actions that belong together from now on.
@@ -188,6 +189,7 @@ struct Workspace {
     bool visible(glm::vec3 point) const;
 
   private:
+    void seePaint(bool seen);  // over the shaded view only
     std::vector<glm::vec3> seenGround() const;
     uint32_t gesture_ = 0;
     std::optional<Ray> pointer_;  // that `pointed` is of

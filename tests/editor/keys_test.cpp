@@ -142,6 +142,25 @@ TEST_CASE("V shows the brush's layer, on surfaces and on roofs") {
     CHECK(scene.look.view == ESP_VIEW_SHADED);
 }
 
+TEST_CASE("who walks sees the finished picture, and who comes back to the brush what is painted") {
+    const Folder folder;
+    Typist typist(folder, smallScene(folder), Tool::paint);
+    const auto& scene = typist.work.scene();
+    typist.work.showLayer(true);
+    typist.key(GLFW_KEY_TAB);
+    CHECK(!typist.work.editing);
+    CHECK(scene.look.view == ESP_VIEW_SHADED);
+    typist.key(GLFW_KEY_TAB);
+    CHECK(typist.work.editing);
+    CHECK(scene.look.view == ESP_VIEW_LAYER);
+    // What another tool shows is meant.
+    typist.work.choose(Tool::seeds);
+    typist.work.perform(espalier::document::SetView{"lod", ""});
+    typist.key(GLFW_KEY_TAB);
+    typist.key(GLFW_KEY_TAB);
+    CHECK(scene.look.view == ESP_VIEW_LOD);
+}
+
 TEST_CASE("a key that is held acts once, but for undo, the brush's size and the numpad") {
     const Folder folder;
     Typist typist(folder, smallScene(folder), Tool::paint);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tests/editor/editing.hpp"
 #include "tools/document/project.hpp"
@@ -153,6 +154,30 @@ TEST_CASE("a stroke that changes nothing is no step of undo, keeps what can be d
     }
     REQUIRE(editing.perform(Redo{}));
     CHECK(texelsOf(editing, "mask")[0] == .5f);
+    REQUIRE(editing.perform(FillLayer{"mask", 0}));
+    CHECK(document.undoName() == std::string("Clear mask"));
+}
+
+TEST_CASE("erasing in the scene for painted paths takes ivy away") {
+    Editing editing(content("guided.json"));
+    StrokeBegin begin;
+    begin.layer = "mask";
+    begin.mode = "erase";
+    begin.radius = 1;
+    begin.strength = begin.hardness = 1;
+    const auto most = [&] {
+        const std::vector<float> texels = texelsOf(editing, "mask");
+        return std::accumulate(texels.begin(), texels.end(), 0.0);
+    };
+    const double before = most();
+    // Where its mask is black, and along the wall, where it is white.
+    StrokeDabs dabs;
+    for (float x = -2.5f; x < 2.5f; x += .5f)
+        for (float y = .2f; y < 3; y += .5f) dabs.dabs.push_back({x, y, .36f, 0, 0, 1, 1});
+    for (const Action& action : {Action(begin), Action(dabs), Action(StrokeEnd{})})
+        REQUIRE_MESSAGE(editing.perform(action), editing.error);
+    CHECK(before > 0);
+    CHECK(most() < before / 2);
 }
 
 TEST_CASE("a layer is hatched where the brush's limits let no paint pass, and nowhere else") {

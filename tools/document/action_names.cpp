@@ -92,7 +92,9 @@ struct Names {
     Name operator()(const StrokeBegin& a) const {
         return (a.mode == "erase" ? "Erase " : a.mode == "smooth" ? "Smooth " : "Paint ") + a.layer;
     }
-    Name operator()(const FillLayer& a) const { return "Fill " + a.layer; }
+    Name operator()(const FillLayer& a) const {
+        return (a.value == 0 && a.colour.empty() ? "Clear " : "Fill ") + a.layer;
+    }
     Name operator()(const LoadLayer& a) const { return "Import " + a.layer; }
     Name operator()(const LoadTownLayer& a) const { return "Import " + a.layer; }
     Name operator()(const FreezeSeeds& a) const {
