@@ -301,10 +301,10 @@ typedef struct EspLook {         /* all numbers finite */
                                     instead of at each vertex; models' levels of detail take over at once;
                                     default 0 */
     EspView view;
-    const char* viewLayer;       /* for ESP_VIEW_LAYER: a layer, or one of colours */
+    const char* viewLayer;       /* for ESP_VIEW_LAYER, else not read: a layer, or one of colours */
     float viewOpacity;           /* 0 to 1: of that layer over models and roofs; default 1 */
-    const EspBrush* viewBrush;   /* for ESP_VIEW_LAYER, else not looked at: where its slopes and heights let no paint pass the surfaces are hatched, and
-                                    the more faintly the more passes; NULL: nowhere */
+    const EspBrush* viewBrush;   /* for ESP_VIEW_LAYER, else not read: where its slopes and heights let no paint pass the
+                                    surfaces are hatched, and the more faintly the more passes; NULL: nowhere */
     uint32_t viewLevel;          /* for ESP_VIEW_CHARTS: the level whose charts and links are shown */
     float lodPixels;       /* error allowed when choosing LOD, pixels; default 1 */
     float leafPixels;            /* leaves of at least so many pixels are all drawn, of smaller ones fewer and larger;
@@ -324,8 +324,8 @@ ESP_API EspResult espFramesDone(EspContext* context, uint64_t framesDone);
 /* A picture that the host has begun: its opaque objects are in colourImage and in a depth buffer. Growth and roofs are
  * drawn into it, hidden by what lies nearer, and their depth is added, so that what the host draws next is hidden by
  * them. Pixels that they don't reach (or, where edges are smoothed, don't touch) stay as they are to the bit.
- * The host draws with the camera of EspDrawDef; fovY is vertical, pixels are square. Look's sky, ground and ESP_VIEW_OVERDRAW
- * are the host's business. Both images: one sample a pixel, usage SAMPLED besides that of an attachment. */
+ * The host draws with the camera of EspDrawDef; fovY is vertical, pixels are square. Sky, ground (the look's and the
+ * town's) and ESP_VIEW_OVERDRAW are the host's business. Both images: one sample a pixel, usage SAMPLED besides that of an attachment. */
 typedef struct EspHostScene {
     void* depthImage;            /* VkImage, in VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, left so */
     uint32_t depthFormat;        /* VkFormat: any of depth; a stencil is left alone */
@@ -344,9 +344,9 @@ typedef struct EspHostScene {
  * The buffer is a primary one; pipelines, descriptor sets, push constants and dynamic state aren't what they were afterwards.
  * On failure it may hold a part of the picture: record it anew, or call espDropFrame.
  * What was recorded has to be submitted to EspHostDevice::queue before the next call that changes the context
- * (espUpdate, espLoadSurface, espStrokeDabs ...) or draws and waits itself (espDraw without a command buffer,
- * espMaterialise), since that goes to the queue first and takes what the recording is to read: `frame` and `framesDone` tell Espalier how long it must keep what that
- * frame reads. A host that stops drawing (a menu, a minimised window) need not tell: the next espUpdate or stroke submits
+ * (espUpdate, espLoadSurface, espStrokeDabs ...) or submits by itself (espDraw without a command buffer, espMaterialise),
+ * which would overwrite what the recording is to read: `frame` and `framesDone` tell Espalier how long it must keep what
+ * that frame reads. A host that stops drawing (a menu, a minimised window) need not tell: the next espUpdate or stroke submits
  * behind its last frame, and once that is done, so is the frame. */
 typedef struct EspDrawDef {
     uint32_t width, height;      /* 1 to 16384 */

@@ -14,7 +14,7 @@ extern "C" {
 
 typedef enum EspLayerSpace {
     ESP_LAYER_WALK_UV = 0,       /* drawn in the surface's walk UV set */
-    ESP_LAYER_MATERIAL_UV = 1,   /* drawn in the model's own UV set; resampled on loading */
+    ESP_LAYER_MATERIAL_UV = 1,   /* drawn in the model's own UV set; resampled on loading. Without one the log warns */
     ESP_LAYER_TEXELS = 2         /* as espReadLayer gave it: the same size, taken as it is, gutters too */
 } EspLayerSpace;
 

@@ -39,9 +39,10 @@ float reachOf(const PlacedSurface& surface, std::span<const DabRecord> dabs, flo
     return (1.001f * radius + kRounding * farthest) / surface.scale;
 }
 
-// Of each block the texels that lie within `reach` of a dab, bit 8 y + x.
+// Of each block the texels that a dab may reach, bit 8 y + x.
 std::vector<uint64_t> texelsWithin(const PlacedSurface& surface, std::span<const uint32_t> blocks,
-                                   std::span<const DabRecord> dabs, float reach) {
+                                   std::span<const DabRecord> dabs, float radius) {
+    const float reach = reachOf(surface, dabs, radius);
     std::vector<glm::vec3> centres;
     for (const DabRecord& dab : dabs) centres.push_back(surface.toObject * glm::vec4(dab.position, 1));
     std::vector<uint64_t> within;
@@ -143,8 +144,7 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
         stroke.smooths ? smooth(context, jobs, stroke, records) : context.painter->dabs(jobs, stroke.brush, records);
     for (const auto& [id, blocks] : touched) {  // smoothing that failed may have come to some of the surfaces
         const PlacedSurface& surface = *context.surfaces.find(id);
-        const float reach = reachOf(surface, records, stroke.radius);
-        layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, records, reach));
+        layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, records, stroke.radius));
     }
     untold.done();
     return painted ? ESP_OK : failGpu(&context, painted.failure());

@@ -18,7 +18,7 @@ struct GroundLook {
 };
 
 // What lies on the meadow of a site, seen from above: 8-bit RGBA, the first row at low.y (world z). Red: 0.5 at a
-// street's edge, 1 four metres inside, 0 four metres outside; green: trodden earth; blue: share of the sky that is
+// street's edge, 1 a metre inside, 0 a metre outside; green: trodden earth; blue: share of the sky that is
 // seen.
 struct SiteMap {
     uint32_t width = 0, height = 0;

@@ -193,13 +193,21 @@ void Models::bounds(glm::vec3& low, glm::vec3& high) const {
     }
 }
 
-float Models::leastSize() const {
-    float least = models_.empty() ? 1.0f : std::numeric_limits<float>::max();
+float Models::lengthUnit() const {
+    float least = std::numeric_limits<float>::max(), most = 0;
     for (const auto& [index, model] : models_) {
         const glm::vec3 size = model.high - model.low;
-        least = std::min(least, std::max({size.x, size.y, size.z}));
+        const float side = std::max({size.x, size.y, size.z});
+        least = std::min(least, side);
+        most = std::max(most, side);
     }
-    return least;
+    return models_.empty() ? 1.0f : espalier::lengthUnit(least, most);
+}
+
+float lengthUnit(float least, float most) {
+    constexpr float kSmall = 1, kLarge = 200;  // metres
+    if (most < kSmall) return std::max(most, 1e-6f) / 6;
+    return least >= kLarge ? least / 6 : 1.0f;
 }
 
 }  // namespace espalier

@@ -18,6 +18,10 @@ namespace espalier {
 void takeModelVertices(GraphicsDesc& desc);
 void takeModelPositions(GraphicsDesc& desc, bool pictured = false);
 
+// What counts as a metre: a metre, unless all models are far too small or too large for that. Then the longest side of
+// the largest, or of the smallest, counts as six. least, most: the models' longest sides, the shortest and the longest.
+float lengthUnit(float least, float most);
+
 // The drawn meshes of the surfaces on the GPU, with their textures.
 class Models {
   public:
@@ -60,8 +64,7 @@ class Models {
     bool empty() const { return models_.empty(); }
     // World bounds of all models; a small box around the origin if there are none.
     void bounds(glm::vec3& low, glm::vec3& high) const;
-    // The longest side of the smallest one, metres; 1 if there are none.
-    float leastSize() const;
+    float lengthUnit() const;
 
   private:
     // Triangles of a range lie in order of the storey that their lowest corner is in: so many indices are in each and

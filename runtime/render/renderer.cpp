@@ -134,18 +134,10 @@ Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, co
     return Done{};
 }
 
-EmitInputs RendererImpl::within(EmitInputs inputs) const {
-    if (!models_.empty()) models_.bounds(inputs.low, inputs.high);
-    return inputs;
-}
-
 EmitInputs RendererImpl::emitInputs(const DrawInputs& inputs) const {
-    return within({inputs.growth, inputs.surfaces, inputs.surfacesRevision});
-}
-
-// As pictures bind it, so that the next one needn't bind it again.
-Result<EmittedTriangles> RendererImpl::materialise(const EmitInputs& inputs) {
-    return emit_.materialise(within(inputs));
+    EmitInputs given{inputs.growth, inputs.surfaces, inputs.surfacesRevision};
+    if (!models_.empty()) models_.bounds(given.low, given.high);
+    return given;
 }
 
 // Of what hides growth: another one where tiles may say something else. A host's scene or a level that fades hides
@@ -155,8 +147,7 @@ uint64_t RendererImpl::sceneOf(const DrawInputs& inputs) {
     if (hosted_ || models_.fading() > 0) return sceneNumber_ << 32;
     const Look& look = inputs.look;
     const uint64_t ground = inputs.ground.drawn ? std::bit_cast<uint32_t>(inputs.ground.height) : 1ull << 32;
-    return combineKeys(mix64(models_.revision() + (propsRevision_ << 32)),
-                       ground + (uint64_t(look.view) << 40) + (uint64_t(look.quick) << 33));
+    return combineKeys(mix64(standing()), ground + (uint64_t(look.view) << 40) + (uint64_t(look.quick) << 33));
 }
 
 Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame) {

@@ -17,7 +17,7 @@
 
 namespace espalier {
 
-constexpr uint32_t kFrameSlots = 8;  // frame records that recordings in flight may still read
+constexpr uint32_t kFrameSlots = 8;  // frame records, taken in turn
 
 class RendererImpl final : public Renderer {
   public:
@@ -38,7 +38,8 @@ class RendererImpl final : public Renderer {
     void trim(const GrowthView& growth) override { emit_.trim(growth); }
     Result<std::vector<uint8_t>> readPixels() override;
     RenderStats stats() const override;
-    Result<EmittedTriangles> materialise(const EmitInputs& inputs) override;
+    // Bound by itself, whatever bounds pictures bind growth in: triangles come in an order of their own.
+    Result<EmittedTriangles> materialise(const EmitInputs& inputs) override { return emit_.materialise(inputs); }
 
   private:
     Status makePrograms();
@@ -73,7 +74,8 @@ class RendererImpl final : public Renderer {
                           float radius, FrameRecord& frame);
     void drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post);
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
-    EmitInputs within(EmitInputs inputs) const;  // the bounds of all models
+    // A number for the models and props of this recording.
+    uint64_t standing() const { return models_.revision() + (furnished_ ? propsRevision_ << 32 : 0); }
     EmitInputs emitInputs(const DrawInputs& inputs) const;
     uint64_t sceneOf(const DrawInputs& inputs);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);

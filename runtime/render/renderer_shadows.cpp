@@ -18,12 +18,6 @@ constexpr uint32_t kStrokeTiles = 8;                         // so many are redr
 constexpr float kWideBias = 0.12f;  // metres that what lies far away is moved towards the sun when it is compared
 constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
 
-// Metres, unless all models are far too small or too large for that: then the smallest one's longest side counts as
-// six.
-float lengthUnit(float side) {
-    return side >= 1.0f && side < 200.0f ? 1.0f : std::max(side, 1e-6f) / 6;
-}
-
 // Bark and leaves as the near map has them.
 EmitView grownShadows(const SunView& sun, float error) {
     EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, error * kShadowLodPixels);
@@ -141,13 +135,8 @@ Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& input
 
 ShadowScene RendererImpl::shadowScene(const DrawInputs& inputs, glm::vec3 sun, glm::vec4 sphere) const {
     const GrowthView& growth = inputs.growth;
-    return {growth.revision,
-            models_.revision() + (furnished_ ? propsRevision_ << 32 : 0),
-            roofed_ ? inputs.roofs->revision : 0,
-            sun,
-            growth.nodeCount,
-            growth.leafCount,
-            sphere};
+    return {growth.revision,  standing(), roofed_ ? inputs.roofs->revision : 0, sun, growth.nodeCount,
+            growth.leafCount, sphere};
 }
 
 Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
@@ -189,7 +178,7 @@ Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, F
             center = glm::round(inputs.camera.target / (0.125f * radius)) * (0.125f * radius);
         }
     }
-    frame.unit = roofed_ ? 1.0f : lengthUnit(models_.leastSize());
+    frame.unit = roofed_ ? 1.0f : models_.lengthUnit();
     if (furnished_) props_->bounds(low, high);
     const glm::vec3 wideCenter = (low + high) * 0.5f;
     const float wideRadius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.02f;
@@ -221,7 +210,10 @@ Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inp
         if (Status s = drawShadows(commands, inputs, sun); !s) return s;
     } else if (redraw != NearShadows::Redraw::nothing) {
         const bool all = redraw == NearShadows::Redraw::allTiles;
-        if (Status s = redrawShadows(commands, inputs, sun, all ? ~0u : kStrokeTiles); !s) return s;
+        if (Status s = redrawShadows(commands, inputs, sun, all ? ~0u : kStrokeTiles); !s) {
+            near_.clear();
+            return s;
+        }
         all ? near_.drewAllTiles() : near_.drewFewTiles();
     }
     shadowsBehind_ |= near_.behind();

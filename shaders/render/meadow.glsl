@@ -39,7 +39,7 @@ vec3 siteAt(sampler2D site, vec2 place, vec2 dx, vec2 dy) {
     return vec3((laid.x - 0.5) * (2.0 * kSiteReach), laid.yz);
 }
 
-// noise: Ground::noise(). paving: Ground::paving(). place: on the ground, metres; dx, dy: its change from pixel to pixel;
+// noise, paving: as Ground binds them. place: on the ground, metres; dx, dy: its change from pixel to pixel;
 // metres: from the eye; laid: siteAt(); pixel: change of laid.x from pixel to pixel; fields: far off lie
 // fields and woods.
 Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy, float metres, vec3 laid, float pixel, bool fields) {

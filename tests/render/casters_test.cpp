@@ -1,9 +1,9 @@
-// What stands between the sun and a wall darkens it: what is cut out of its triangles doesn't, and however far away it
-// is does.
+// What stands between the sun and a wall darkens it, however far away it is; what is cut out of its triangles doesn't.
 #include <doctest/doctest.h>
 
 #include <numeric>
 
+#include "runtime/render/models.hpp"
 #include "tests/render/drawn.hpp"
 #include "tests/render/wall.hpp"
 
@@ -50,6 +50,14 @@ double brightness(const SurfaceData* caster, float away) {
 }
 
 }  // namespace
+
+TEST_CASE("a metre is one unless all models are too small or too large for it") {
+    CHECK(lengthUnit(.05f, .3f) == doctest::Approx(.05f));
+    CHECK(lengthUnit(.05f, 6) == 1);    // an urn beside a wall
+    CHECK(lengthUnit(2, 900) == 1);     // a level
+    CHECK(lengthUnit(300, 900) == 50);  // a house in centimetres
+    CHECK(lengthUnit(0, 0) > 0);
+}
 
 TEST_CASE("what is cut out of a model's triangles casts no shadow") {
     const SurfaceData whole = board(0), half = board(.5f);

@@ -164,6 +164,28 @@ TEST_CASE("where a level takes over, no frame's mean changes by more than a fift
     }
 }
 
+// As in a split screen or a mirror: what the other one shows is no reason to go on from.
+TEST_CASE("two cameras that take turns each show what they would alone") {
+    const SurfaceData data = closedModel();
+    Stage stage;
+    stage.look(data, 2.4f);
+    stage.allow(data.coarser.front().error * 0.999f);
+    stage.place(data);
+    const Camera near = stage.inputs.camera;
+    const Pixels alone = stage.frame();
+    const uint64_t fine = stage.stats().modelTriangles;
+    stage.look(data, 40);
+    const Camera far = stage.inputs.camera;
+    for (int i = 0; i < 4; ++i) {
+        stage.inputs.camera = far;
+        (void)stage.frame();
+        CHECK(stage.stats().modelTriangles < fine);
+        CHECK(stage.stats().modelsFading == 0);
+        stage.inputs.camera = near;
+        CHECK(stage.frame() == alone);
+    }
+}
+
 TEST_CASE("a model beside or behind the view isn't drawn, one that reaches into it is, and comes back as it was") {
     const SurfaceData data = closedModel();
     const float radius = glm::length(data.boundsMax - data.boundsMin) / 2;

@@ -31,8 +31,8 @@ endif()
 # The kernels' arithmetic is compiled for GPU and CPU; contraction into fused operations would let them differ.
 add_compile_options(-ffp-contract=off)
 
-# For files that can't be compiled together with others where CMAKE_UNITY_BUILD is on (the release preset): those that
-# define what a header of theirs only declares elsewhere.
+# For files that can't be compiled together with others where CMAKE_UNITY_BUILD is on (the release preset): those for
+# which a header of theirs says something else than for others, and those that are wanted as objects of their own.
 function(espalier_apart)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
