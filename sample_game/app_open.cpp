@@ -185,7 +185,8 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     const bool whole = request.layers.empty() && request.grammar.empty() && !request.seed && request.times == 1;
     session_.begin(work_, request.file, read, whole);
     if (options_.frames) session_.autosaves().forgetRecovery(false);
-    work_.lookFrom(work_.scene().camera);
+    work_.start = work_.scene().camera;
+    work_.lookFromStart();
     retitle();
     return true;
 }

@@ -120,8 +120,8 @@ void BrushTool::flush(Workspace& work) {
 }
 
 void BrushTool::cancel(Workspace& work) {
-    if (sizing_ != Sizing::none) (sizing_ == Sizing::radius ? work.brushRadius() : work.brush.strength) = before_;
-    sizing_ = Sizing::none;
+    if (sizing()) (sizing_ == Sizing::radius ? work.brushRadius() : work.brush.strength) = before_;
+    endSizing(work);
     end(work);
 }
 
@@ -165,7 +165,7 @@ bool BrushTool::take(Workspace& work, const PointerEvent& event) {
             if (event.button == GLFW_MOUSE_BUTTON_RIGHT)
                 cancel(work);
             else
-                sizing_ = Sizing::none;
+                endSizing(work);
         }
         return true;
     }
@@ -187,7 +187,41 @@ void BrushTool::startSizing(Workspace& work, glm::vec2 at, bool strength) {
     before_ = strength ? work.brush.strength : work.brushRadius();
     sizingFrom_ = at;
     sizingAt_ = work.hit;
+    work.underWay = strength ? "Move the mouse: strength   click: keep it   Esc: as it was"
+                             : "Move the mouse: radius   click: keep it   Esc: as it was";
 }
+
+void BrushTool::endSizing(Workspace& work) {
+    if (sizing()) work.underWay = nullptr;
+    sizing_ = Sizing::none;
+}
+
+namespace {
+
+// The ring's runs of places in the window that are seen and lie next to each other in the scene, no further than
+// `apart`.
+std::vector<std::vector<ImVec2>> runsOf(const Workspace& work, const std::vector<glm::vec3>& ring, float apart) {
+    const size_t count = ring.size();
+    const std::vector<bool> hidden = work.hidden(ring);
+    std::vector<std::optional<glm::vec2>> places;
+    for (const glm::vec3& point : ring) places.push_back(work.place(point));
+    const auto joined = [&](size_t i) {  // with the one before
+        const size_t before = (i + count - 1) % count;
+        return !hidden[i] && !hidden[before] && places[i] && places[before] &&
+               glm::distance(ring[i], ring[before]) < apart;
+    };
+    size_t first = 0;
+    while (first < count && joined(first)) ++first;
+    std::vector<std::vector<ImVec2>> runs;
+    for (size_t n = 0; n <= count; ++n) {  // a ring that is whole ends where it began
+        const size_t i = (first + n) % count;
+        if (n == 0 || !joined(i)) runs.emplace_back();
+        if (places[i] && !hidden[i]) runs.back().push_back({places[i]->x, places[i]->y});
+    }
+    return runs;
+}
+
+}  // namespace
 
 void BrushTool::drawCircle(const Workspace& work, int mods, const EspHit& hit) const {
     const StrokeBegin stroke = painting_ ? stroke_ : strokeOf(work, mods);
@@ -197,27 +231,24 @@ void BrushTool::drawCircle(const Workspace& work, int mods, const EspHit& hit) c
     Disc disc{work, vec(hit.position), glm::normalize(vec(hit.normal)), {},
               {},   stroke.radius,     work.townLayer(stroke.layer)};
     tangents(disc.normal, disc.u, disc.v);
-    constexpr int kPoints = 40;
-    const auto ring = [&](float share, ImVec2* points) {
-        int count = 0;
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const auto ring = [&](float share) {
+        constexpr int kPoints = 40;
+        constexpr float kApart = .5f;  // of the radius: beyond a gap, or on something that stands before the rest
+        std::vector<glm::vec3> points;
         for (int i = 0; i < kPoints; ++i) {
             const float angle = 6.2831853f * float(i) / kPoints;
-            const glm::vec3 point = disc.rim({std::cos(angle), std::sin(angle)}, share);
-            if (const auto at = work.place(point)) points[count++] = {at->x, at->y};
+            points.push_back(disc.rim({std::cos(angle), std::sin(angle)}, share));
         }
-        return count;
+        return runsOf(work, points, kApart * share * disc.radius);
     };
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    ImVec2 outer[kPoints], inner[kPoints];
-    const int count = ring(1, outer);
-    if (count > 2) {
-        list.AddPolyline(outer, count, IM_COL32(0, 0, 0, 160), ImDrawFlags_Closed, 4 * work.scale);
-        list.AddPolyline(outer, count, colour, ImDrawFlags_Closed, 2 * work.scale);
-    }
-    if (stroke.hardness > .05f) {
-        const int few = ring(stroke.hardness, inner);
-        if (few > 2) list.AddPolyline(inner, few, (colour & 0xFFFFFF) | 0x70000000, ImDrawFlags_Closed, work.scale);
-    }
+    const auto draw = [&](const std::vector<std::vector<ImVec2>>& runs, ImU32 with, float width) {
+        for (const auto& run : runs) list.AddPolyline(run.data(), int(run.size()), with, 0, width * work.scale);
+    };
+    const auto outer = ring(1);
+    draw(outer, IM_COL32(0, 0, 0, 160), 4);
+    draw(outer, colour, 2);
+    if (stroke.hardness > .05f) draw(ring(stroke.hardness), (colour & 0xFFFFFF) | 0x70000000, 1);
     if (const auto at = work.place(disc.centre)) list.AddCircleFilled({at->x, at->y}, 2.5f * work.scale, colour);
 }
 

@@ -30,6 +30,7 @@ class BrushTool {
     enum class Sizing { none, radius, strength };
     void begin(Workspace& work, int mods);
     void end(Workspace& work);
+    void endSizing(Workspace& work);
     void moveTo(Workspace& work, glm::vec2 at);
     void drawCircle(const Workspace& work, int mods, const EspHit& hit) const;
     void layDab(const Workspace& work, glm::vec2 at);

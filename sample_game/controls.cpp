@@ -108,7 +108,10 @@ void Controls::takeKey(const KeyEvent& event) {
         else
             chooseTool(Tool::look);
     }
-    if (key == GLFW_KEY_HOME) work_.frameAll(), navigation_.moved();
+    if (key == GLFW_KEY_HOME) {
+        work_.editing ? work_.frameAll() : work_.lookFromStart();  // who walks stays on the ground
+        navigation_.moved();
+    }
     if (!work_.editing) {
         if (key == GLFW_KEY_G) navigation_.toggleFlying();
         if (key == GLFW_KEY_SPACE) navigation_.jump();
@@ -141,6 +144,8 @@ bool Controls::takeViewKey(const KeyEvent& event) {
         work_.camera.turnBy(0, event.key == GLFW_KEY_KP_8 ? -kStep : kStep);
     else if (event.key == GLFW_KEY_KP_ADD || event.key == GLFW_KEY_KP_SUBTRACT)
         work_.camera.zoom(event.key == GLFW_KEY_KP_ADD ? 1 : -1);
+    else if (event.key == GLFW_KEY_KP_0)
+        work_.lookFromStart();
     else if (event.key == GLFW_KEY_KP_DECIMAL || event.key == GLFW_KEY_PERIOD)
         work_.frameChosen();
     else

@@ -22,6 +22,7 @@ using espalier::scene::Ring;
 using espalier::scene::ringOf;
 
 constexpr float kCornerReach = 11, kEdgeReach = 8, kMergeReach = 6, kTremble = 4;  // pixels at 96 dpi
+constexpr float kDepth = 4;
 constexpr ImU32 kOutline = IM_COL32(255, 255, 255, 230), kChosen = IM_COL32(255, 170, 50, 255),
                 kGable = IM_COL32(250, 220, 90, 255), kEave = IM_COL32(110, 210, 255, 255),
                 kShade = IM_COL32(0, 0, 0, 140);
@@ -99,6 +100,15 @@ void renumber(House& house, uint32_t first, int by) {
         if (edge.edge >= first) edge.edge = uint32_t(int(edge.edge) + by);
 }
 
+// The plane in which the corner is dragged, by its normal: that of the eaves. Where the eye sees it nearly from its
+// edge a pixel would be many metres: it is tilted there, so that one is no more than kDepth times what it is across.
+glm::vec3 dragPlane(glm::vec3 eye, glm::vec3 corner) {
+    const glm::vec3 way = glm::normalize(corner - eye);
+    const float tilt = std::max(0.f, std::asin(1 / kDepth) - std::asin(std::min(std::abs(way.y), 1.f)));
+    const glm::vec3 level = glm::vec3(way.x, 0, way.z) / std::max(glm::length(glm::vec2(way.x, way.z)), 1e-6f);
+    return std::cos(tilt) * glm::vec3(0, 1, 0) + std::copysign(std::sin(tilt), way.y) * level;
+}
+
 }  // namespace
 
 void HouseTool::press(Workspace& work, glm::vec2 at, bool insert) {
@@ -144,6 +154,7 @@ void HouseTool::beginDrag(Workspace& work, House house, size_t corner, glm::vec2
     from_ = at;
     refused_ = false;
     grip_ = corner < points.size() ? points[corner].value_or(at) - at : glm::vec2(0);
+    if (const std::vector<glm::vec3> eaves = eavesOf(work, dragged_); corner < eaves.size()) hold_ = eaves[corner];
     moved_ = false;
 }
 
@@ -154,19 +165,23 @@ void HouseTool::dragTo(Workspace& work, glm::vec2 mouse) {
     EspHouseInfo info;
     if (espHouseInfo(work.context.get(), dragged_.index, &info) != ESP_OK) return;
     const Ray ray = work.rayThrough(at);
-    const float along = (info.eaveHeight - ray.origin.y) / ray.direction.y;
+    const glm::vec3 normal = dragPlane(ray.origin, hold_);
+    const float along = glm::dot(hold_ - ray.origin, normal) / glm::dot(ray.direction, normal);
     // Towards the horizon a pixel is many metres: nobody means that.
     auto& corner = dragged_.corners[*corner_];
     const float now = glm::distance(ray.origin, {corner[0], info.eaveHeight, corner[1]});
     if (!(along > 0 && along < 2 * now + 2)) return;
     const glm::vec3 to = ray.origin + along * ray.direction;
     corner = {to.x, to.z};
-    // So near to the next corner or the one before, it is meant to be one with it.
+    // So near to the next corner or the one before, seen in the window and on the plan, it is meant to be one with it.
     const Ring ring = ringOf(dragged_, *corner_);
+    const float near = kMergeReach * work.scale, pixels = work.camera.pixelsPerMetre(now, work.window.y);
+    const auto shown = work.place({to.x, info.eaveHeight, to.z});
     for (size_t other : {ring.after(*corner_), ring.before(*corner_)}) {
         const auto& next = dragged_.corners[other];
         const auto place = work.place({next[0], info.eaveHeight, next[1]});
-        if (place && glm::distance(*place, at) < kMergeReach * work.scale) corner = next;
+        const float away = pixels * glm::distance(glm::vec2(next[0], next[1]), glm::vec2(to.x, to.z));
+        if (place && shown && glm::distance(*place, *shown) < near && away < kDepth * near) corner = next;
     }
     refused_ = !work.perform(SetHouse{dragged_}, gesture_);
     if (refused_) return;

@@ -26,6 +26,7 @@ class HouseTool {
     std::optional<size_t> corner_;
     espalier::scene::House dragged_;
     glm::vec2 from_{0}, grip_{0};  // where it was pressed; from there to where the corner was seen
+    glm::vec3 hold_{0};            // and where the corner was
     bool refused_ = false;         // by the last move
     bool moved_ = false;           // further than a hand trembles in a click
     bool changed_ = false;         // by this drag

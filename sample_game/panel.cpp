@@ -299,7 +299,7 @@ void seedsPanel(Workspace& work) {
     toolTip("Else they look upward");
     const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
     ImGui::BeginDisabled(scene.seeds.empty());
-    if (ImGui::Button("All anew", {half, 0})) work.renumberSeeds();
+    if (ImGui::Button("Reseed all", {half, 0})) work.renumberSeeds();
     toolTip("Other random numbers for all seeds  (Shift+R)");
     ImGui::SameLine();
     if (ImGui::Button("Remove all", {half, 0})) {

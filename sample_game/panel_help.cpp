@@ -19,10 +19,11 @@ void showHelp(Workspace& work) {
                           {"Middle drag, Alt+drag", "turn around; with Shift sideways"},
                           {"Right drag", "look around; with W A S D Q E fly, the wheel sets how fast"},
                           {"Wheel", "to and from what the mouse points at"},
-                          {"Home", "show all that plants grow on"},
+                          {"Home", "show all that plants grow on; in the game back to its start"},
                           {"F or numpad .", "show what is chosen; with the brush in hand numpad . only"},
                           {"Numpad 1 3 7", "from the front, the right, above; Ctrl: the other side"},
-                          {"Numpad 2 4 6 8, + -", "turn by 15 degrees, nearer, further"}};
+                          {"Numpad 2 4 6 8, + -", "turn by 15 degrees, nearer, further"},
+                          {"Numpad 0", "the start view"}};
     const Row paint[] = {{"B, then drag", "paint the chosen layer"},
                          {"Ctrl+drag, Shift+drag", "erase (back to as it comes), smooth"},
                          {"X", "the opposite value: to take away what would be painted"},

@@ -50,11 +50,19 @@ void pitch(Workspace& work, Edit& edit, const char* label, float& slope) {
     ImGui::PopID();
 }
 
-// Another kind comes with a pitch of its own, or the plan's, unless the user has set one.
+// One pitch means the same for both.
+bool pitchedAlike(const std::string& kind, const std::string& other) {
+    const auto even = [](const std::string& of) {
+        return of == "hip" || of == "gable" || of == "half-hip" || of == "pyramid";
+    };
+    return kind == other || (even(kind) && even(other));
+}
+
+// A pitch that the user has set stays, and the plan's among kinds that are pitched alike. Others come with their own.
 void chooseKind(const Workspace& work, House& house, const std::string& kind) {
     const auto& planned = work.scene().plannedRoofs[house.index];
     const bool set = house.slope > 0 && house.slope != planned.slope;
-    if (!set && kind != house.shape) house.slope = kind == planned.shape ? planned.slope : 0;
+    if (!set && kind != house.shape) house.slope = pitchedAlike(kind, planned.shape) ? planned.slope : 0;
     house.shape = kind;
 }
 
@@ -200,7 +208,7 @@ void housesPanel(Workspace& work) {
     if (edit.changed) work.perform(SetHouse{house}, edit.gesture);
     const auto& town = work.scene().town;
     ImGui::BeginDisabled(!town || !std::ranges::count(town->houses, *work.house, &House::index));
-    if (ImGui::Button("As it was planned", {-1, 0})) work.perform(ResetHouse{*work.house});
+    if (ImGui::Button("Reset to plan", {-1, 0})) work.perform(ResetHouse{*work.house});
     toolTip("Back to what the town's file says");
     ImGui::EndDisabled();
     if (std::ranges::any_of(work.scene().surfaces, [](const auto& surface) { return !surface.drawn; })) {

@@ -79,7 +79,7 @@ void layerDialogues(Workspace& work, Session& session) {
 
 void askForLayer(const std::string& layer, bool import) {
     Dialogues& d = dialogues();
-    if (d.layer != layer || !d.picture[0]) put(d.picture, layer + ".exr");
+    if (d.layer != layer || !d.picture[0]) put(d.picture, layer + ".png");
     d.layer = layer;
     const std::string name = d.picture.data();
     if (!import) put(d.picture, freeName(name, std::filesystem::path(name).extension().string()));

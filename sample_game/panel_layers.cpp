@@ -129,11 +129,13 @@ void layersPanel(Workspace& work) {
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
         label(what.c_str());
         ImGui::PopStyleColor();
-        if (chosen) chosenLayer(work, layer);
-        if (chosen && layer.name == "mask" && !layer.readers.empty())
-            aside("A path up a wall: Clear, drag up the wall; then S and a click at its foot.");
         ImGui::PopID();
     }
+    const auto chosen = std::ranges::find(layers, work.brush.layer, &Layer::name);  // rows stay where they are
+    if (chosen == layers.end()) return;
+    chosenLayer(work, *chosen);
+    if (chosen->name == "mask" && !chosen->readers.empty())
+        aside("A path up a wall: Clear, drag up the wall; then S and a click at its foot.");
 }
 
 }  // namespace sample

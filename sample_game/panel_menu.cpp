@@ -119,20 +119,25 @@ void showMenu(Workspace& work, Session& session) {
             if (!layer.empty() && ImGui::MenuItem(("Layer: " + layer).c_str(), "V", seen == ESP_VIEW_LAYER))
                 work.showLayer(seen != ESP_VIEW_LAYER);
             ImGui::Separator();
+            if (ImGui::MenuItem("Show all", "Home")) work.frameAll();
+            if (ImGui::MenuItem("Show what is chosen", "Numpad .")) work.frameChosen();
+            if (ImGui::MenuItem("Start view", "Numpad 0")) work.lookFromStart();
+            ImGui::Separator();
             ImGui::MenuItem("Panel", "F2", &work.layout.panel);
-            ImGui::MenuItem("Figures", "F3", &work.layout.figures);
+            ImGui::MenuItem("Statistics", "F3", &work.layout.figures);
             if (ImGui::MenuItem("Grammar", "F4", work.layout.grammar))
                 work.showGrammar(!work.layout.grammar, work.shownGrammar);
             if (ImGui::MenuItem("Atlas", "F5", work.layout.atlas)) work.showAtlas(!work.layout.atlas);
-            if (ImGui::MenuItem("Windows as at first")) {
+            if (ImGui::MenuItem("Reset windows")) {
                 work.windowsAnew = 2;
                 work.layout.panelWidth = Layout{}.panelWidth;
                 work.redraw = true;
             }
-            ImGui::MenuItem("Smaller while moving", nullptr, &work.layout.smallerWhileMoving);
+            ImGui::MenuItem("Lower resolution while moving", nullptr, &work.layout.smallerWhileMoving);
             toolTip("While the camera moves on a slow device, the picture has fewer pixels, down to half a side");
             ImGui::SetNextItemWidth(ImGui::GetFontSize() * 8);
-            ImGui::SliderFloat("Size of all", &work.layout.sizeOfAll, .5f, 2.5f, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+            ImGui::SliderFloat("Interface scale", &work.layout.sizeOfAll, .5f, 2.5f, "%.2f",
+                               ImGuiSliderFlags_AlwaysClamp);
             ImGui::EndMenu();
         }
         if (ImGui::BeginMenu("Help")) {
@@ -141,8 +146,17 @@ void showMenu(Workspace& work, Session& session) {
         }
         std::string name = session.name(work);
         if (session.modified(work)) name += " *";
-        if (session.recording()) name += "   REC";
-        ImGui::SetCursorPosX(ImGui::GetWindowWidth() - ImGui::CalcTextSize(name.c_str()).x - 12 * work.scale);
+        const char* recording = session.recording() ? "REC" : "";
+        const float gap = ImGui::GetFontSize(), dot = *recording ? ImGui::CalcTextSize(recording).x + 2 * gap : 0;
+        ImGui::SetCursorPosX(ImGui::GetWindowWidth() - ImGui::CalcTextSize(name.c_str()).x - dot - 12 * work.scale);
+        if (*recording) {
+            const ImVec2 at = ImGui::GetCursorScreenPos();
+            const float middle = at.y + ImGui::GetFrameHeight() / 2;
+            ImGui::GetWindowDrawList()->AddCircleFilled({at.x + gap / 2, middle}, gap * .35f, ImColor(kBad));
+            ImGui::SetCursorPosX(ImGui::GetCursorPosX() + gap);
+            ImGui::TextColored(kBad, "%s", recording);
+            ImGui::SetCursorPosX(ImGui::GetWindowWidth() - ImGui::CalcTextSize(name.c_str()).x - 12 * work.scale);
+        }
         ImGui::TextDisabled("%s", name.c_str());
         ImGui::EndMainMenuBar();
     }

@@ -94,7 +94,7 @@ void leavingDialogue(Workspace& work, Session& session) {
     say(session.name(work) + " has changes that aren't saved.");
     const bool saves = ImGui::Button("Save") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
     ImGui::SameLine();
-    const bool gives = ImGui::Button("Give them up");
+    const bool gives = ImGui::Button("Don't save");
     ImGui::SameLine();
     const bool stays = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
     if (saves || gives || stays || !d.next) ImGui::CloseCurrentPopup();

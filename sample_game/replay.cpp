@@ -40,8 +40,9 @@ bool Replay::step(Workspace& work, double now) {
     work.underWay = status_.c_str();
     if (next_ < run_->lines.size()) return true;
     const std::string note = run_->note.empty() ? "" : "\n" + run_->note;
+    const std::string began = std::filesystem::path(run_->head.scene).filename().string();
     stop(work);
-    work.message = "Replayed: " + name + ", " + all + " frames" + note;
+    work.message = "Replayed: " + name + ", " + all + " frames; what it made of " + began + " is open now" + note;
     return false;
 }
 

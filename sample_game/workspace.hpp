@@ -60,6 +60,7 @@ struct Workspace {
     std::unique_ptr<EspContext, void (*)(EspContext*)> context{nullptr, espDestroy};
     std::unique_ptr<espalier::document::Document> document;
     ViewCamera camera;
+    EspCamera start{};  // where one begins to look at what is open
 
     // How the window is: size in ImGui's units, scale of the display, what the panel takes at the left (of the width).
     glm::vec2 window{1280, 720};
@@ -107,6 +108,7 @@ struct Workspace {
     std::pair<glm::vec3, glm::vec3> bounds() const;
     float reach() const;  // how large the scene is, metres
     void lookFrom(const EspCamera& from);
+    void lookFromStart() { lookFrom(start); }
     void frameAll();
     void frameChosen();        // what is chosen with the tool in hand fills the view; everything, if nothing is
     float panelUnits() const;  // what the panel takes at the left, in ImGui's units

@@ -63,6 +63,10 @@ void measureTerminalErrors(TerminalData& data) {
         const LodDistance toFull(data, full);
         for (size_t l = 1; l < variant.lods.size(); ++l) {
             TerminalLod& lod = variant.lods[l];
+            if (lod.pixels > 0) {
+                lod.error = 1 / lod.pixels;
+                continue;
+            }
             const LodDistance toLod(data, lod);
             // The root of the mean square: one far point, like the end of a stalk, doesn't decide for all.
             double sum = 0;

@@ -15,6 +15,7 @@ struct TerminalLod {
     uint32_t firstVertex = 0, vertexCount = 0;
     uint32_t firstIndex = 0, indexCount = 0;  // indices count from firstVertex
     float error = 0;                          // as VariantRecord::error
+    float pixels = 0;  // what has so many across, or fewer, is drawn so, whatever the error is; 0: its error decides
     uint32_t material = 0;
 };
 struct TerminalVariant {
@@ -51,7 +52,8 @@ std::vector<std::string> standardTerminalKinds();
 Result<TerminalData> readTerminals(const std::filesystem::path& path,
                                    std::vector<std::string> kinds = standardTerminalKinds());
 
-// Fills each LOD's error by measuring its distance to the finest one.
+// Fills each LOD's error by measuring its distance to the finest one, where the file doesn't say when it is good
+// enough.
 void measureTerminalErrors(TerminalData& data);
 
 // What the records say of the meshes that are on the GPU; of any number of them.

@@ -232,6 +232,7 @@ class Reader {
         const uint64_t material = number(p, "material", 0);
         check(material < data_.materials.size(), name + ": its material is missing");
         lod.material = uint32_t(material);
+        lod.pixels = float(std::clamp(real(member(mesh, "extras", noObject_), "pixels", 0), 0.0, 1e4));
         for (size_t i = 0; i < vertices; ++i) {
             TerminalVertex v;
             for (int c = 0; c < 3; ++c) v.position[c] = float(position[3 * i + c]);

@@ -325,31 +325,36 @@ EspCamera espFrameAll(const EspContext* context) {
     EspCamera camera = espDefaultDrawDef().camera;
     if (!context || (context->surfaces.size() == 0 && !context->town)) return camera;
     glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
-    for (uint32_t i = 0; i < espHouseCount(context); ++i) {
-        EspHouseInfo house;
-        if (espHouseInfo(context, i, &house) != ESP_OK) continue;
-        low = glm::min(low, vec(house.boundsMin));
-        high = glm::max(high, vec(house.boundsMax));
-    }
+    std::vector<glm::vec3> points;  // corners of boxes
+    const auto hold = [&](glm::vec3 from, glm::vec3 to) {
+        low = glm::min(low, from), high = glm::max(high, to);
+        for (int i = 0; i < 8; ++i) points.push_back(glm::mix(from, to, glm::vec3(i & 1, i >> 1 & 1, i >> 2 & 1)));
+    };
+    for (uint32_t i = 0; i < espHouseCount(context); ++i)
+        if (EspHouseInfo house; espHouseInfo(context, i, &house) == ESP_OK)
+            hold(vec(house.boundsMin), vec(house.boundsMax));
     context->surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
-        low = glm::min(low, vec(surface.info.boundsMin));
-        high = glm::max(high, vec(surface.info.boundsMax));
+        hold(vec(surface.info.boundsMin), vec(surface.info.boundsMax));
     });
-    const glm::vec3 centre = (low + high) * .5f;
-    const float radius = std::max(glm::length(high - low) * .5f, 1e-4f);
+    const glm::vec3 size = high - low;
+    const float radius = std::max(glm::length(size) * .5f, 1e-4f);
     camera.fovY = .6f;
-    // So far away that every corner of the bounds is nearly within a frame of 4:3.
-    const float tangent = std::tan(camera.fovY * .5f) * .96f;
-    const glm::vec3 towards = glm::normalize(glm::vec3(.55f, .2f, 1));
+    // What is flat, such as a town, is seen from further above, over what stands at its rim.
+    const float flatness = size.y / std::max({size.x, size.z, 1e-4f});
+    const glm::vec3 towards =
+        glm::normalize(glm::vec3(.55f, glm::mix(.6f, .2f, glm::smoothstep(.1f, .5f, flatness)), 1));
     const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), towards));
     const glm::vec3 up = glm::cross(towards, right);
-    float distance = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 c = glm::mix(low, high, glm::vec3(corner & 1, corner >> 1 & 1, corner >> 2 & 1)) - centre;
+    // So far away that every corner is nearly within a frame of 4:3.
+    const float tangent = std::tan(camera.fovY * .5f) * .96f;
+    const glm::vec3 centre = (low + high) * .5f;
+    float distance = radius;
+    for (const glm::vec3& point : points) {
+        const glm::vec3 c = point - centre;
         const float across = std::max(std::abs(glm::dot(c, up)), std::abs(glm::dot(c, right)) * .75f);
         distance = std::max(distance, glm::dot(c, towards) + across / tangent);
     }
-    const glm::vec3 eye = centre + towards * std::max(distance, radius);
+    const glm::vec3 eye = centre + towards * distance;
     std::memcpy(camera.eye, &eye, sizeof camera.eye);
     std::memcpy(camera.target, &centre, sizeof camera.target);
     camera.nearPlane = std::min(radius * .005f, .1f);  // within a town one stands on its streets

@@ -25,7 +25,8 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
     out->device_ = &device;
     out->bounds_ = terminalBounds(meshes);
     for (TerminalVariant& v : meshes.variants)
-        for (TerminalLod& lod : v.lods) lod.error *= kErrorScale;
+        for (TerminalLod& lod : v.lods)
+            if (lod.pixels == 0) lod.error *= kErrorScale;
     Result<Terminals> terminals = Terminals::create(device, std::move(meshes));
     if (!terminals) return terminals.failure();
     out->terminals_ = std::move(*terminals);

@@ -72,7 +72,7 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     if (fields && far > 0.0) {
         vec4 land = textureGrad(noise, place * (1.0 / 730.0), dx * (1.0 / 730.0), dy * (1.0 / 730.0)) * 2.0 - 1.0;
         green = mix(green, green.yyy * vec3(1.25, 1.12, 0.55), far * smoothstep(0.05, 0.35, land.z));
-        green *= 1.0 - 0.42 * far * smoothstep(0.0, 0.22, land.x + 0.35 * broad.y);
+        green *= 1.0 - 0.42 * far * smoothstep(0.0, 0.22, land.x + 0.5 * broad.x);
     }
     Meadow m;
     m.base = mix(earth, green, grass);

@@ -6,11 +6,24 @@
 const float kFadeEnd = 1.7;
 const float kReliefEnd = 2.6;   // from here on cells are lit as their meshes are; below ever more as the pattern is
 
+const float kApartClarity = 2.2;
+
+// Along an axis without neighbours a cell is as long as its mesh: caps stand on a segment, whose step is 0 across.
+vec2 cellSides(RoofGrid g) {
+    return vec2((g.cells & 0xFFFFu) > 1u ? g.step.x : g.size.x, (g.cells >> 16u) > 1u ? g.step.y : g.size.y);
+}
+// Things that stand apart, such as a storey's windows: a pattern would paint over what lies between them. They have levels
+// of detail in its place.
+bool standApart(RoofGrid g) {
+    vec2 cell = cellSides(g);
+    return g.cells == 0x10001u || g.size.x * g.size.y < 0.6 * cell.x * cell.y;
+}
+
 // pixels: of a metre there. lying: how little its plane is seen edge-on.
 float cellClarity(RoofDrawEnv env, RoofGrid g, float pixels, float lying) {
-    // Along an axis without neighbours a cell is as long as its mesh: caps stand on a segment, whose step is 0 across.
-    vec2 cell = vec2((g.cells & 0xFFFFu) > 1u ? g.step.x : g.size.x, (g.cells >> 16u) > 1u ? g.step.y : g.size.y);
+    vec2 cell = cellSides(g);
     float clarity = pixels * max(min(cell.x, cell.y), 0.25 * max(cell.x, cell.y)) / env.leastCell;
+    if (standApart(g)) return clarity * kApartClarity;
     if ((g.cells >> 16u) <= 1u) return clarity;
     // Courses seen edge-on would flicker long before they are small.
     return min(clarity, pixels * g.step.y * lying / 1.5);

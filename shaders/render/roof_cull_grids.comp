@@ -6,6 +6,8 @@
 #include "shaders/render/roof_clarity.glsl"
 #include "shaders/shared/dispatch.glsl"
 
+const float kLeastCaster = 0.25;   // metres: what stands out of its wall or roof by less casts no shadow worth a mesh
+
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Data { RoofCullPush push; };
 
@@ -31,12 +33,13 @@ void main() {
     float pixels = view.pixelScale / far;
     if (pixels * max(size.x, size.y) < 0.7) return;
     bool shadow = (env.flags & kRoofShadow) != 0u;
-    bool pattern = many && (shadow || cellClarity(env, view, g, center, far) < 1.0);
+    bool small = many && cellClarity(env, view, g, center, far) < 1.0;
+    bool apart = many && standApart(g);
+    if (apart && (small || (shadow && mesh.high.z * g.thickness < kLeastCaster))) return;
+    bool pattern = !apart && (small || (many && shadow));
     // Cells go over into their pattern one by one, the furthest first.
-    bool below = many && !pattern && cellClarity(env, view, g, center, far + 2.0 * reach) < kFadeEnd;
-    bool sparse = g.size.x * g.size.y < 0.6 * g.step.x * g.step.y;
-    if (pattern && sparse) return;   // it would paint over what lies between the cells
-    if (pattern || (below && !sparse)) {
+    bool below = many && !apart && !pattern && cellClarity(env, view, g, center, far + 2.0 * reach) < kFadeEnd;
+    if (pattern || below) {
         uint first = 0u;
         uint count = 1u;
         if (g.region != kNoIndex) {

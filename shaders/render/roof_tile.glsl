@@ -40,7 +40,7 @@ void main() {
     // without would be a mosaic of streaks. Smaller pictures, of what moves, keep it for longer: near roofs would lose
     // it when the camera sets off.
     float clear = 1.0;
-    if (g.firstRow != kNoIndex) {
+    if (g.firstRow != kNoIndex && !standApart(g)) {
         vec3 face = cross(g.axisX, g.axisY);
         vec3 ray = frame.eye - position;
         float far = max(length(ray), 0.05);

@@ -13,8 +13,11 @@ vec3 skyColor(vec3 ray) {
     return (ray.y > 0.0 ? sky : below) + frame.sunColor * (0.05 * glow * glow * glow);
 }
 
-// How much of what is so far away is haze.
-float hazeAt(float metres) { return 1.0 - exp(-metres * (1.0 / 420.0)); }
+// How much of what is so far away, near the ground, is haze. It lies low: from above one looks through less of it.
+float hazeAt(float metres) {
+    float rise = max((frame.eye.y - frame.groundLevel) / (40.0 * frame.unit), 1e-3);
+    return 1.0 - exp(metres * (1.0 / 420.0) * (exp(-rise) - 1.0) / rise);
+}
 // Wooded land so far away that it is mostly haze, in ranges 0, 1, 2 ... behind each other; the more so the lower it lies,
 // so that each range rises out of the mist over the one before. At the foot of the first there is little of it: the plain
 // goes over into its woods.

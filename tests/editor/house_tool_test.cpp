@@ -268,6 +268,43 @@ TEST_CASE("a corner that is let go over its neighbour becomes one with it, and o
     CHECK(builder.done.back().index() == Action(Undo{}).index());
 }
 
+TEST_CASE("a corner that is seen from a street moves by no more than a few times what the mouse does") {
+    const Folder folder;
+    Builder builder(folder);
+    const uint32_t index = builder.named("mansard");
+    builder.choose(index);
+    const EspHouseInfo info = builder.info(index);
+    const glm::vec3 target(info.boundsMin[0], info.eaveHeight, info.boundsMax[2]);
+    for (const float above : {-2.f, -.4f, .4f, 2.f}) {
+        CAPTURE(above);
+        EspCamera camera = builder.work.camera.camera();
+        const glm::vec3 eye = target + glm::vec3(0, above, 30);
+        std::copy_n(&eye.x, 3, camera.eye);
+        std::copy_n(&target.x, 3, camera.target);
+        builder.work.lookFrom(camera);
+        const House before = builder.house(index);
+        const auto place = [&](const House& house, size_t i) {
+            return glm::vec2(house.corners[i][0], house.corners[i][1]);
+        };
+        size_t nearest = 0;
+        for (size_t i = 1; i < before.corners.size(); ++i)
+            if (glm::distance(place(before, i), {eye.x, eye.z}) < glm::distance(place(before, nearest), {eye.x, eye.z}))
+                nearest = i;
+        const float distance =
+            glm::distance(glm::vec3(before.corners[nearest][0], info.eaveHeight, before.corners[nearest][1]), eye);
+        const float pixel = 1 / builder.work.camera.pixelsPerMetre(distance, builder.work.window.y);
+        const glm::vec2 from = builder.corner(index, nearest);
+        for (const float pixels : {-12.f, 12.f}) {
+            builder.drag(from, from + glm::vec2(0, pixels));
+            const float moved = glm::distance(place(builder.house(index), nearest), place(before, nearest));
+            CHECK(moved > .8f * 12 * pixel);
+            CHECK(moved < 5 * 12 * pixel);
+            builder.undo();
+            REQUIRE(builder.house(index) == before);
+        }
+    }
+}
+
 TEST_CASE("a courtyard's corners are dragged, added and taken away as the outline's are, and the roof keeps to them") {
     const Folder folder;
     Builder builder(folder, folder.write("court.json", R"({"buildings": [{"id": "court", "roof:shape": "hipped",

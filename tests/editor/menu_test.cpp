@@ -106,7 +106,7 @@ TEST_CASE("the panel that was drawn wide is as wide as at first once windows are
     editor.rest();
     CHECK(wide() == doctest::Approx(first + 150).epsilon(.02));
     editor.tap(editor.find(widget("##MainMenuBar", {"##menubar", "View", ""}), {0, 8}, {400, 12}));
-    editor.tap(editor.find(widget("##Menu_00", {"Windows as at first", ""}), {0, 20}, {600, 500}));
+    editor.tap(editor.find(widget("##Menu_00", {"Reset windows", ""}), {0, 20}, {600, 500}));
     for (int i = 0; i < 3; ++i) {
         CHECK(wide() == first);
         CHECK(editor.work.layout.panelWidth == first);

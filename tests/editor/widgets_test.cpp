@@ -77,7 +77,7 @@ TEST_CASE("each widget of a house's panel does what it says, as one step of undo
     CHECK(oneStep());
     CHECK(panel.work.error == "");
 
-    panel.press({"As it was planned"});
+    panel.press({"Reset to plan"});
     CHECK(panel.all<ResetHouse>().size() == 1);
     CHECK(panel.house().shape != "gambrel");
     CHECK(panel.house().look->covering != "slate");
@@ -106,8 +106,14 @@ TEST_CASE("another kind of roof has a pitch of its own, or the plan's, unless th
     CHECK(own.ridgeHeight != doctest::Approx(before.ridgeHeight));
     panel.undo();
 
+    panel.choose({"##kind"}, "Hip");  // pitched alike: the plan's
+    CHECK(panel.house().slope == planned.slope);
+    panel.undo();
     panel.choose({"##kind"}, "Gable");
     CHECK(panel.house() == planned);
+    panel.choose({"##kind"}, "Half-hip");
+    CHECK(panel.house().slope == planned.slope);
+    panel.undo();
     panel.undo();
     panel.undo();
     CHECK(panel.house() == planned);

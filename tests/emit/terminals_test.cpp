@@ -15,7 +15,7 @@ using namespace espalier;
 
 namespace {
 
-// bark_lod0 and leaf_lod0, both one triangle of these indices of a glTF component type.
+// bark_lod0 and two levels of a leaf, all one triangle of these indices of a glTF component type.
 template <class T>
 std::vector<std::byte> smallFile(std::array<T, 3> indices, int componentType) {
     const float vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
@@ -26,7 +26,8 @@ std::vector<std::byte> smallFile(std::array<T, 3> indices, int componentType) {
         {"bufferView":1,"componentType":)" +
                        std::to_string(componentType) + R"(,"count":3,"type":"SCALAR"}],"meshes":[
         {"name":"bark_lod0","primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"indices":2}]},
-        {"name":"leaf_lod0","primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"indices":2}]}]})";
+        {"name":"leaf_lod0","primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"indices":2}]},
+        {"name":"leaf_lod1","extras":{"pixels":16},"primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"indices":2}]}]})";
     std::array<std::byte, 84> binary{};
     std::memcpy(binary.data(), vertices, 72);
     std::memcpy(binary.data() + 72, indices.data(), sizeof indices);
@@ -90,6 +91,16 @@ TEST_CASE("a cut-out of two triangles is far off, however near the finest mesh i
     CHECK(errors(0).y < .01f);
     CHECK(errors(.5f).x < .01f);
     CHECK(errors(.5f).y > .15f);
+}
+
+TEST_CASE("a file may say how small a thing has to be for a LOD, whatever its distance to the finest mesh") {
+    Result<TerminalData> data = readBytes(smallFile());
+    REQUIRE(data);
+    REQUIRE(data->variants[1].lods.size() == 2);
+    CHECK(data->variants[1].lods[1].error == doctest::Approx(1.0 / 16));
+    data->variants[1].lods[1].pixels = 0;
+    measureTerminalErrors(*data);
+    CHECK(data->variants[1].lods[1].error < 1e-3f);  // it is the same mesh
 }
 
 TEST_CASE("a missing file is named") {

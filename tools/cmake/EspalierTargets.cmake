@@ -17,7 +17,9 @@ if(CCACHE_PROGRAM)
 endif()
 
 if(ESPALIER_SANITIZE)
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  # GCC 12 takes what std::regex holds for unset where that is instrumented.
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+                      -Wno-maybe-uninitialized)
   add_link_options(-fsanitize=address,undefined)
 endif()
 

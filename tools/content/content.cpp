@@ -137,7 +137,7 @@ Status writeRoofMeshes(const Options& options) {
     glb.materials = {{"rough", -1, -1, 0.9f, 0, false, false},
                      {"smooth", -1, -1, 0.7f, 0, false, false},
                      {"glass", -1, -1, 0.1f, 0, false, false}};
-    for (const RoofMeshes::Entry& e : meshes.all) glb.meshes.push_back({e.name, &e.mesh, e.material});
+    for (const RoofMeshes::Entry& e : meshes.all) glb.meshes.push_back({e.name, &e.mesh, e.material, e.pixels});
     return writeGlb(options.directory + "/roofs.glb", glb);
 }
 

@@ -78,6 +78,7 @@ class Writer {
                           {"mode", 4}};
         json["nodes"].push_back({{"name", m.name}, {"mesh", json["nodes"].size()}});
         json["meshes"].push_back({{"name", m.name}, {"primitives", Json::array({std::move(primitive)})}});
+        if (m.pixels > 0) json["meshes"].back()["extras"] = {{"pixels", m.pixels}};
     }
 };
 

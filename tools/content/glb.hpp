@@ -28,6 +28,7 @@ struct GlbMesh {
     std::string name;
     const Mesh* mesh = nullptr;
     int material = 0;
+    float pixels = 0;  // as TerminalLod::pixels, in its extras; 0: isn't said
 };
 
 struct Glb {

@@ -11,7 +11,8 @@ struct RoofMeshes {
     struct Entry {
         std::string name;  // KIND_lodN
         Mesh mesh;
-        int material;  // 0 rough, 1 smooth, 2 glass
+        int material;      // 0 rough, 1 smooth, 2 glass
+        float pixels = 0;  // as GlbMesh::pixels
     };
     std::vector<Entry> all;
 };

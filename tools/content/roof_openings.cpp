@@ -7,10 +7,20 @@ namespace {
 
 using glm::vec3;
 
-// Two leaves with two bars each.
+// Of windows' and doors' parts whose details aren't told apart any more, and of those that are smaller than a pixel.
+constexpr float kFlatPixels = 40, kMergedPixels = 11;
+
+// Two leaves with two bars each. The coarsest level has bars and what is seen between them as one.
 Mesh casement(int lod) {
     Solid s;
     constexpr float kRim = 0.07f;
+    if (lod == 2) {
+        s.quad({0, 0, 1}, {1, 0, 1}, {1, 0.06f, 1}, {0, 0.06f, 1})
+            .quad({0, 0.95f, 1}, {1, 0.95f, 1}, {1, 1, 1}, {0, 1, 1});
+        s.quad({0, 0.06f, 1}, {kRim, 0.06f, 1}, {kRim, 0.95f, 1}, {0, 0.95f, 1});
+        s.quad({1 - kRim, 0.06f, 1}, {1, 0.06f, 1}, {1, 0.95f, 1}, {1 - kRim, 0.95f, 1});
+        return s.quad({kRim, 0.06f, 1}, {1 - kRim, 0.06f, 1}, {1 - kRim, 0.95f, 1}, {kRim, 0.95f, 1}, 0.09f).mesh;
+    }
     s.box({0, 0, 0}, {1, 0.06f, 1}).box({0, 0.95f, 0}, {1, 1, 1});
     s.box({0, 0.06f, 0}, {kRim, 0.95f, 1}).box({1 - kRim, 0.06f, 0}, {1, 0.95f, 1});
     s.box({0.46f, 0.06f, 0}, {0.54f, 0.95f, 0.8f});
@@ -85,11 +95,13 @@ Mesh door(int lod) {
 void addOpenings(RoofMeshes& out) {
     for (int lod : {0, 1}) {
         const std::string end = "_lod" + std::to_string(lod);
-        out.all.push_back({"casement" + end, casement(lod), 1});
-        out.all.push_back({"shutter" + end, shutter(lod), 1});
-        out.all.push_back({"door" + end, door(lod), 1});
-        out.all.push_back({"curtains" + end, curtains(lod), 2});
+        const float pixels = lod == 0 ? 0 : kFlatPixels;
+        out.all.push_back({"casement" + end, casement(lod), 1, pixels});
+        out.all.push_back({"shutter" + end, shutter(lod), 1, pixels});
+        out.all.push_back({"door" + end, door(lod), 1, pixels});
+        out.all.push_back({"curtains" + end, curtains(lod), 2, pixels});
     }
+    out.all.push_back({"casement_lod2", casement(2), 1, kMergedPixels});
     out.all.push_back({"surround_lod0", surround(), 0});
 }
 
