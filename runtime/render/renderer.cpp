@@ -56,9 +56,9 @@ Result<std::vector<RoofMesh>> RendererImpl::loadRoofMeshes(TerminalData meshes) 
 }
 
 Status RendererImpl::upload(Commands& commands, const FrameRecord& frame) {
-    frame_ = &frames_[frameSlot_++ % kFrameSlots];
+    now_.frame = &frames_[frameSlot_++ % kFrameSlots];
     commands.barrier(Use::vertex | Use::fragment, Use::transfer);
-    if (Status s = commands.upload(*frame_, std::as_bytes(std::span(&frame, 1))); !s) return s;
+    if (Status s = commands.upload(*now_.frame, std::as_bytes(std::span(&frame, 1))); !s) return s;
     commands.barrier(Use::transfer, Use::vertex | Use::fragment);
     return Done{};
 }
@@ -84,53 +84,54 @@ void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, co
     const bool onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
     std::optional<Pass> part;
     const auto begin = [&](const char* name) {
-        if (isQuick(shading_)) part.emplace(pass.commands(), name);
+        if (isQuick(now_.shading)) part.emplace(pass.commands(), name);
     };
     begin("draw models");
-    models_.draw(pass, {scene_->model,
-                        scene_->modelFoot,
-                        *frame_,
+    models_.draw(pass, {now_.scene->model,
+                        now_.scene->modelFoot,
+                        *now_.frame,
                         {shadowMap_, shadowSampler_},
                         ground_,
-                        shading_,
+                        now_.shading,
                         inputs.surfaces.v != nullptr,
                         !onGround,
-                        groundLevel_,
-                        unit_});
-    if (furnished_) {
+                        now_.groundLevel,
+                        now_.unit});
+    if (now_.furnished) {
         begin("draw props");
-        props_->draw(pass, *frame_, {shadowMap_, shadowSampler_}, plain_ ? plainOf(shading_) : shading_);
+        props_->draw(pass, *now_.frame, {shadowMap_, shadowSampler_},
+                     now_.plain ? plainOf(now_.shading) : now_.shading);
     }
     begin("draw ground");
-    if (post.ground != 0) ground_.draw(pass, post, *frame_, shadowMap_, shadowSampler_, shading_);
+    if (post.ground != 0) ground_.draw(pass, post, *now_.frame, shadowMap_, shadowSampler_, now_.shading);
 }
 
 // What hides growth. Where the picture is ours and shaded, that is depths only: what growth hides isn't shaded at all.
 Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target,
                                 const PostPush& post) {
-    ahead_ = !hosted_ && shading_ != Shading::counting;
-    if (ahead_) {
+    now_.ahead = !now_.hosted && now_.shading != Shading::counting;
+    if (now_.ahead) {
         DrawTargets depths;
         depths.extent = {targets_.width, targets_.height};
         depths.depth = DepthTarget{.view = targets_.depth.view(), .clear = 0.0f};
         commands.transition(targets_.depth, ImageState::depthTarget, true);
         DrawPass pass(commands, "draw ahead", depths);
-        models_.drawAhead(pass, modelAhead_, modelAheadFading_, *frame_);
+        models_.drawAhead(pass, modelAhead_, modelAheadFading_, *now_.frame);
         return Done{};
     }
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
     targets.depth = DepthTarget{.view = targets_.depth.view(), .clear = {}};
-    if (hosted_) {
+    if (now_.hosted) {
         const float nearPlane = std::max(inputs.camera.nearPlane, kLeastNearPlane);
-        if (Status s = merge_->begin(commands, target, targets_, *frame_, nearPlane); !s) return s;
+        if (Status s = merge_->begin(commands, target, targets_, *now_.frame, nearPlane); !s) return s;
     } else {
         targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
         targets.depth->clear = 0.0f;
     }
-    commands.transition(targets_.color, ImageState::colorTarget, !hosted_);
-    commands.transition(targets_.depth, ImageState::depthTarget, !hosted_);
+    commands.transition(targets_.color, ImageState::colorTarget, !now_.hosted);
+    commands.transition(targets_.depth, ImageState::depthTarget, !now_.hosted);
     DrawPass pass(commands, "draw scene", targets);
-    if (!hosted_ || target.host.models) drawSurroundings(pass, inputs, post);
+    if (!now_.hosted || target.host.models) drawSurroundings(pass, inputs, post);
     return Done{};
 }
 
@@ -144,7 +145,7 @@ EmitInputs RendererImpl::emitInputs(const DrawInputs& inputs) const {
 // something else in each frame.
 uint64_t RendererImpl::sceneOf(const DrawInputs& inputs) {
     ++sceneNumber_;
-    if (hosted_ || models_.fading() > 0) return sceneNumber_ << 32;
+    if (now_.hosted || models_.fading() > 0) return sceneNumber_ << 32;
     const Look& look = inputs.look;
     const uint64_t ground = inputs.ground.drawn ? std::bit_cast<uint32_t>(inputs.ground.height) : 1ull << 32;
     return combineKeys(mix64(standing()), ground + (uint64_t(look.view) << 40) + (uint64_t(look.quick) << 33));
@@ -156,15 +157,15 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
     view.width = targets_.width;
     view.height = targets_.height;
     view.tilePixels = kDepthTile;
-    const uint64_t models = hosted_ ? 0 : models_.revision();
+    const uint64_t models = now_.hosted ? 0 : models_.revision();
     if (Status s = depthTiles_.find(commands, targets_.depth, pointSampler_, models, view); !s) return s;
     thinOut(view, inputs.look.leafPixels);
     if (inputs.look.quick && device_.info().cpu) view.flags |= kStretches;
     view.scene = sceneOf(inputs);
-    if (isQuick(shading_) && !hosted_) depthTiles_.lookBack(device_, models, view);
-    if (roofed_)
+    if (isQuick(now_.shading) && !now_.hosted) depthTiles_.lookBack(device_, models, view);
+    if (now_.roofed)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;
-    if (!grows_) return Done{};
+    if (!now_.grows) return Done{};
     return emit_.cull(commands, emitInputs(inputs), view, "emit", true);
 }
 
@@ -176,27 +177,27 @@ void RendererImpl::drawSky(DrawPass& pass, const FrameRecord& frame, const PostP
         const uint32_t first = hills ? above : 0, end = hills ? height : above;
         if (first == end) continue;
         pass.setScissor(0, int32_t(first), width, end - first);
-        pass.draw(sky_[hills], 3, 1, post, {ground_.noiseBinding(true), ground_.skylineBinding(), *frame_});
+        pass.draw(sky_[hills], 3, 1, post, {ground_.noiseBinding(true), ground_.skylineBinding(), *now_.frame});
     }
 }
 
 void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame,
                               const PostPush& post) {
-    commands.transition(targets_.color, ImageState::colorTarget, ahead_);
+    commands.transition(targets_.color, ImageState::colorTarget, now_.ahead);
     commands.transition(targets_.depth, ImageState::depthTarget);
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
     targets.depth = DepthTarget{};
     targets.depth->view = targets_.depth.view();
-    if (ahead_) targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
+    if (now_.ahead) targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
     DrawPass pass(commands, "draw scene", targets);
-    if (grows_) drawTerminals(pass, false);
-    if (roofed_) {
+    if (now_.grows) drawTerminals(pass, false);
+    if (now_.roofed) {
         std::optional<Pass> part;
-        if (isQuick(shading_)) part.emplace(commands, "draw roofs");
-        roofs_->draw(pass, *frame_, &shadowMap_, &shadowSampler_, shading_);
+        if (isQuick(now_.shading)) part.emplace(commands, "draw roofs");
+        roofs_->draw(pass, *now_.frame, &shadowMap_, &shadowSampler_, now_.shading);
     }
-    if (ahead_) drawSurroundings(pass, inputs, post);
-    if (!hosted_) drawSky(pass, frame, post);
+    if (now_.ahead) drawSurroundings(pass, inputs, post);
+    if (!now_.hosted) drawSky(pass, frame, post);
 }
 
 void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
@@ -205,19 +206,19 @@ void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
     commands.transition(targets_.distance, ImageState::colorTarget, true);
     {
         DrawPass pass(commands, "draw occlusion", onto(extent, targets_.distance.view()));
-        pass.draw(distance_, 3, 1, push, {{targets_.depth, pointSampler_}, *frame_});
+        pass.draw(distance_, 3, 1, push, {{targets_.depth, pointSampler_}, *now_.frame});
     }
     commands.transition(targets_.distance, ImageState::sampled);
     commands.transition(targets_.open, ImageState::colorTarget, true);
     {
         DrawPass pass(commands, "draw occlusion", onto(extent, targets_.open.view()));
-        pass.draw(occlusion_, 3, 1, push, {{targets_.distance, pointSampler_}, *frame_});
+        pass.draw(occlusion_, 3, 1, push, {{targets_.distance, pointSampler_}, *now_.frame});
     }
     commands.transition(targets_.open, ImageState::sampled);
 }
 
 Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostPush push) {
-    const bool intoOwn = !target.image || hosted_;
+    const bool intoOwn = !target.image || now_.hosted;
     const VkFormat format = intoOwn ? kOwnFormat : target.format;
     push.encode = takesLinear(format) ? 0 : 1;
     Result<const Program*> program = resolveProgram(format);
@@ -238,9 +239,10 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
     commands.transition(intoOwn ? targets_.own : host, ImageState::colorTarget, true);
     {
         DrawPass pass(commands, "draw resolve", onto({target.width, target.height}, view));
-        pass.draw(**program, 3, 1, push, {{targets_.color, plainSampler_}, {targets_.open, plainSampler_}, *frame_});
+        pass.draw(**program, 3, 1, push,
+                  {{targets_.color, plainSampler_}, {targets_.open, plainSampler_}, *now_.frame});
     }
-    return hosted_ ? merge_->end(commands, targets_) : Status(Done{});
+    return now_.hosted ? merge_->end(commands, targets_) : Status(Done{});
 }
 
 Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
@@ -264,40 +266,41 @@ void RendererImpl::forget() {
 Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
     require(target.width > 0 && target.height > 0 && target.width <= 16384 && target.height <= 16384,
             "a picture is 1 to 16384 pixels wide and high");
+    now_ = {};
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;
     const GrowthView& growth = inputs.growth;
     if (Status s = pickScene(shownView(inputs), inputs.look.quick); !s) return s;
-    grows_ = growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
-    roofed_ = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
-    hosted_ = target.image && target.host.depth;
-    if (hosted_ && !merge_) {
+    now_.grows = growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
+    now_.roofed = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
+    now_.hosted = target.image && target.host.depth;
+    if (now_.hosted && !merge_) {
         auto made = HostMerge::create(device_, targets_.samples);
         if (!made) return made.failure();
         merge_ = std::move(*made);
     }
-    furnished_ = props_ && !props_->empty() && !hosted_;
+    now_.furnished = props_ && !props_->empty() && !now_.hosted;
 
     FrameRecord frame = makeFrame(inputs, target.width, target.height);
     if (Status s = keepShadows(commands, inputs, frame); !s) return s;
-    groundLevel_ = frame.groundLevel;
-    unit_ = frame.unit;
+    now_.groundLevel = frame.groundLevel;
+    now_.unit = frame.unit;
     ground_.describe(frame);
     if (Status s = upload(commands, frame); !s) return s;
-    if (furnished_)
+    if (now_.furnished)
         if (Status s = props_->choose(commands, frame); !s) return s;
     PostPush push{};
     push.rcpSize = {1.0f / float(target.width), 1.0f / float(target.height)};
-    push.ground = inputs.ground.drawn && !hosted_ ? 1 : 0;
+    push.ground = inputs.ground.drawn && !now_.hosted ? 1 : 0;
     // Some devices do a pass' work when the next one needs it: only the whole is a true time.
     Pass whole(commands, "draw");
     // While all moves, and where that begins or ends, nobody sees one mesh replace another: two at a time would cost
     // such a picture half as much again.
-    models_.choose(frame, allowedModelError(inputs.look, grows_), inputs.look.quick || quickBefore_);
+    models_.choose(frame, allowedModelError(inputs.look, now_.grows), inputs.look.quick || quickBefore_);
     quickBefore_ = inputs.look.quick;
     if (Status s = drawModels(commands, inputs, target, push); !s) return s;
-    if (grows_ || roofed_)
+    if (now_.grows || now_.roofed)
         if (Status s = cullGrowth(commands, inputs, frame); !s) return s;
-    if (grows_)
+    if (now_.grows)
         if (Status s = lightTerminals(commands); !s) return s;
     drawGrowth(commands, inputs, frame, push);
     commands.transition(targets_.color, ImageState::sampled);
@@ -315,14 +318,14 @@ Result<std::vector<uint8_t>> RendererImpl::readPixels() {
 
 RenderStats RendererImpl::stats() const {
     RenderStats stats;
-    if (grows_) stats.emit = emit_.stats();
-    if (roofed_) stats.roofs = roofs_->stats();
+    if (now_.grows) stats.emit = emit_.stats();
+    if (now_.roofed) stats.roofs = roofs_->stats();
     stats.modelTriangles = models_.triangles();
     stats.modelsFading = models_.fading();
     stats.shadowsWhole = near_.timesWhole();
     stats.shadowsPartly = near_.timesPartly();
     stats.shadowsTaken = near_.timesTaken();
-    stats.shadowsBehind = shadowsBehind_;
+    stats.shadowsBehind = now_.shadowsBehind;
     stats.emitMs = device_.milliseconds("emit");
     stats.drawMs = std::max(0.0, device_.milliseconds("draw") - stats.emitMs);
     return stats;

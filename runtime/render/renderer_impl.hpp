@@ -57,7 +57,7 @@ class RendererImpl final : public Renderer {
                             std::vector<SpecConstant> constants, Blend blend) const;
     Status pickScene(ViewMode shown, bool quick);
     Result<const Program*> resolveProgram(VkFormat format);
-    // Uploads the record to frame_.
+    // Uploads the record to now_.frame.
     Status upload(Commands& commands, const FrameRecord& frame);
     // renderer_shadows.cpp: redraws shadows that aren't up to date, and tells the frame where they are.
     Status keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame);
@@ -75,7 +75,7 @@ class RendererImpl final : public Renderer {
     void drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post);
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
     // A number for the models and props of this recording.
-    uint64_t standing() const { return models_.revision() + (furnished_ ? propsRevision_ << 32 : 0); }
+    uint64_t standing() const { return models_.revision() + (now_.furnished ? propsRevision_ << 32 : 0); }
     EmitInputs emitInputs(const DrawInputs& inputs) const;
     uint64_t sceneOf(const DrawInputs& inputs);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
@@ -84,7 +84,7 @@ class RendererImpl final : public Renderer {
     Status lightTerminals(Commands& commands);
     // Whether what the bucket draws has few enough vertices, and pixels, to be lit ahead; whether it has been.
     bool canBeLit(uint32_t bucket) const;
-    bool isLit(uint32_t bucket) const { return lit_ && canBeLit(bucket); }
+    bool isLit(uint32_t bucket) const { return now_.lit && canBeLit(bucket); }
     ScenePrograms::Lit& litPrograms(ScenePrograms& programs, uint32_t bucket) const;
     Status makeLit(ScenePrograms& programs) const;
     void drawTerminals(DrawPass& pass, bool depthOnly);
@@ -103,9 +103,7 @@ class RendererImpl final : public Renderer {
     DepthTiles depthTiles_;
     Image shadowMap_, standing_;  // the near half without growth; made when something grows
     Sampler shadowSampler_, textureSampler_, quickSampler_, plainSampler_, pointSampler_;
-    ScenePrograms scenes_[kShadings];     // each made when first asked for
-    ScenePrograms* scene_ = &scenes_[0];  // of this recording
-    Shading shading_ = Shading::full;
+    ScenePrograms scenes_[kShadings];  // each made when first asked for
     Program modelAhead_, modelAheadFading_, modelDepth_, modelCutDepth_, barkDepth_, leafDepth_, leafCutDepth_,
         distance_, occlusion_, shadowRestore_;
     Program sky_[2];                                       // without and with hills
@@ -115,20 +113,24 @@ class RendererImpl final : public Renderer {
     Buffer litTerminals_;                    // lit.glsl
     TexelView litTexels_;                    // of it; after it
     std::array<Buffer, kFrameSlots> frames_;
-    const Buffer* frame_ = nullptr;  // the one of this recording
     uint32_t frameSlot_ = 0;
     NearShadows near_;
     WideShadows wide_;
-    bool shadowsBehind_ = false;  // of what this picture shows
     uint64_t sceneNumber_ = 0, propsRevision_ = 0;
-    bool grows_ = false, roofed_ = false;
-    bool plain_ = false;  // growth and props are drawn as in the shaded view
-    bool quickBefore_ = false;
-    float groundLevel_ = 0, unit_ = 1;  // of this recording
-    bool lit_ = false;                  // what has few vertices has been lit ahead of this picture
-    bool ahead_ = false;                // models' depths went ahead, they are shaded after growth
-    bool hosted_ = false;               // this recording goes into a host's scene
-    bool furnished_ = false;            // it draws props
+    bool quickBefore_ = false;  // the picture before was
+    // What the recording that goes on, or the last one, is about: none of it outlives the next one's beginning.
+    struct {
+        bool grows = false, roofed = false, furnished = false;  // it draws growth, roofs, props
+        bool hosted = false;                                    // into a host's scene
+        Shading shading = Shading::full;
+        ScenePrograms* scene = nullptr;
+        bool plain = false;  // growth and props are drawn as in the shaded view
+        bool lit = false;    // what has few vertices has been lit ahead
+        bool ahead = false;  // models' depths went ahead, they are shaded after growth
+        float groundLevel = 0, unit = 1;
+        const Buffer* frame = nullptr;
+        bool shadowsBehind = false;  // what this picture shows
+    } now_;
 };
 
 }  // namespace espalier

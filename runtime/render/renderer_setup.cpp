@@ -141,24 +141,24 @@ Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading) const {
 
 Status RendererImpl::pickScene(ViewMode shown, bool quick) {
     const bool explained = shown != ViewMode::shaded, cheap = quick && device_.info().cpu;
-    plain_ = !explained || shown == ViewMode::layer;
+    now_.plain = !explained || shown == ViewMode::layer;
     if (shown == ViewMode::overdraw)
-        shading_ = Shading::counting;
+        now_.shading = Shading::counting;
     else if (explained)
-        shading_ = cheap ? Shading::quickExplaining : Shading::explaining;
+        now_.shading = cheap ? Shading::quickExplaining : Shading::explaining;
     else
-        shading_ = cheap ? Shading::quick : Shading::full;
-    scene_ = &scenes_[size_t(shading_)];
-    return makeScene(*scene_, shading_);
+        now_.shading = cheap ? Shading::quick : Shading::full;
+    now_.scene = &scenes_[size_t(now_.shading)];
+    return makeScene(*now_.scene, now_.shading);
 }
 
 Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
-    const bool counts = shading_ == Shading::counting;
-    const ResolveKind kind{format, counts, isQuick(shading_)};
+    const bool counts = now_.shading == Shading::counting;
+    const ResolveKind kind{format, counts, isQuick(now_.shading)};
     if (auto it = resolves_.find(kind); it != resolves_.end()) return &it->second;
     const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
     GraphicsDesc desc = fullscreen("resolve", fragment, format);
-    desc.options.constants = {{kExplains, counts ? 1u : 0u}, {kQuick, isQuick(shading_) ? 1u : 0u}};
+    desc.options.constants = {{kExplains, counts ? 1u : 0u}, {kQuick, isQuick(now_.shading) ? 1u : 0u}};
     Result<Program> made = Program::graphics(device_, desc);
     if (!made) return made.failure();
     return &(resolves_[kind] = std::move(*made));

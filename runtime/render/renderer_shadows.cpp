@@ -51,9 +51,10 @@ Status RendererImpl::makeStanding() {
 
 // error: times what is allowed otherwise.
 void RendererImpl::drawStanding(DrawPass& pass, const SunView& sun, float error) {
-    models_.drawDepth(pass, modelDepth_, modelCutDepth_, *frame_, error * kShadowModelTexels * sun.width / kShadowSize);
-    if (roofed_) roofs_->draw(pass, *frame_, nullptr, nullptr);
-    if (furnished_) props_->drawDepth(pass, *frame_);
+    models_.drawDepth(pass, modelDepth_, modelCutDepth_, *now_.frame,
+                      error * kShadowModelTexels * sun.width / kShadowSize);
+    if (now_.roofed) roofs_->draw(pass, *now_.frame, nullptr, nullptr);
+    if (now_.furnished) props_->drawDepth(pass, *now_.frame);
 }
 
 Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
@@ -63,12 +64,12 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
     const float error = coarse ? kStrokeError : 1;
     EmitView grown = grownShadows(sun, error);
     if (coarse) thinOut(grown, kStrokeLeafTexels);
-    if (grows_)
+    if (now_.grows)
         if (Status s = emit_.cull(commands, emitInputs(inputs), grown, "shadow emit", false); !s) return s;
     const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, error * kShadowLodPixels);
-    if (roofed_)
+    if (now_.roofed)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, true, "shadow emit"); !s) return s;
-    if (furnished_)
+    if (now_.furnished)
         if (Status s = props_->chooseCasters(commands, sun.toClip); !s) return s;
     const auto draw = [&](Image& image, bool growth) {
         commands.transition(image, ImageState::depthTarget, !growth || !wide_.drawn());  // the map's other half stays
@@ -77,11 +78,11 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
         targets.depth = DepthTarget{.view = image.view(), .clear = 1.0f};
         DrawPass pass(commands, "shadow draw", targets);
         drawStanding(pass, sun, error);
-        if (growth && grows_) drawTerminals(pass, true);
+        if (growth && now_.grows) drawTerminals(pass, true);
     };
     draw(shadowMap_, true);
     commands.transition(shadowMap_, ImageState::sampled);
-    const bool kept = grows_ && !coarse;
+    const bool kept = now_.grows && !coarse;
     if (kept) {
         if (Status s = makeStanding(); !s) return s;
         draw(standing_, false);
@@ -115,9 +116,9 @@ Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs,
 Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
     if (Status s = upload(commands, shadowFrame(inputs, sun)); !s) return s;
     const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, kShadowLodPixels);
-    if (roofed_)
+    if (now_.roofed)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, true, "shadow emit"); !s) return s;
-    if (furnished_)
+    if (now_.furnished)
         if (Status s = props_->chooseCasters(commands, sun.toClip); !s) return s;
     commands.transition(shadowMap_, ImageState::depthTarget, true);
     {
@@ -135,7 +136,7 @@ Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& input
 
 ShadowScene RendererImpl::shadowScene(const DrawInputs& inputs, glm::vec3 sun, glm::vec4 sphere) const {
     const GrowthView& growth = inputs.growth;
-    return {growth.revision,  standing(), roofed_ ? inputs.roofs->revision : 0, sun, growth.nodeCount,
+    return {growth.revision,  standing(), now_.roofed ? inputs.roofs->revision : 0, sun, growth.nodeCount,
             growth.leafCount, sphere};
 }
 
@@ -149,7 +150,7 @@ Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs
         if (Status s = drawWideShadows(commands, inputs, wide); !s) return s;
         wide_.drew(now, wide.toTexture);
     }
-    shadowsBehind_ = wide_.behind();
+    now_.shadowsBehind = wide_.behind();
     // Both look along the sun: one's coordinates are the other's, scaled and moved.
     const float wide = 2 * wide_.radius();
     const glm::vec4 origin(0, 0, 0, 1);
@@ -160,17 +161,16 @@ Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs
 }
 
 Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame) {
-    shadowsBehind_ = false;
     glm::vec3 low, high;
     models_.bounds(low, high);
-    if (roofed_) {
+    if (now_.roofed) {
         low = models_.empty() ? inputs.roofs->low : glm::min(low, inputs.roofs->low);
         high = models_.empty() ? inputs.roofs->high : glm::max(high, inputs.roofs->high);
     }
     float radius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.06f;
     glm::vec3 center = (low + high) * 0.5f;
     // A town, or a wide scene, is larger than a map of shadows can resolve: it covers what is looked at.
-    if (roofed_ || radius > kFineRadius) {
+    if (now_.roofed || radius > kFineRadius) {
         const float reach =
             std::exp2(std::ceil(std::log2(1.6f * glm::length(inputs.camera.target - inputs.camera.eye))));
         if (reach < radius) {
@@ -178,8 +178,8 @@ Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, F
             center = glm::round(inputs.camera.target / (0.125f * radius)) * (0.125f * radius);
         }
     }
-    frame.unit = roofed_ ? 1.0f : models_.lengthUnit();
-    if (furnished_) props_->bounds(low, high);
+    frame.unit = now_.roofed ? 1.0f : models_.lengthUnit();
+    if (now_.furnished) props_->bounds(low, high);
     const glm::vec3 wideCenter = (low + high) * 0.5f;
     const float wideRadius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.02f;
     // What casts stands within the wide sphere.
@@ -198,14 +198,14 @@ Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inp
                                        const ShadowScene& now) {
     const Look& look = inputs.look;
     if (!near_.begin(now, {look.shadows, look.shadowsLag, look.quick})) {
-        shadowsBehind_ |= near_.behind();
+        now_.shadowsBehind |= near_.behind();
         if (!near_.drawn() && !wide_.drawn())
             commands.transition(shadowMap_, ImageState::sampled, true);  // bound, though not read
         return Done{};
     }
-    if (grows_)
+    if (now_.grows)
         if (Status s = emit_.bind(commands, emitInputs(inputs)); !s) return s;
-    const NearShadows::Redraw redraw = near_.redraw(grows_, emit_.wholeBindings());
+    const NearShadows::Redraw redraw = near_.redraw(now_.grows, emit_.wholeBindings());
     if (redraw == NearShadows::Redraw::whole) {
         if (Status s = drawShadows(commands, inputs, sun); !s) return s;
     } else if (redraw != NearShadows::Redraw::nothing) {
@@ -216,7 +216,7 @@ Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inp
         }
         all ? near_.drewAllTiles() : near_.drewFewTiles();
     }
-    shadowsBehind_ |= near_.behind();
+    now_.shadowsBehind |= near_.behind();
     return Done{};
 }
 

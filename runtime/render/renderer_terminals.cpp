@@ -63,8 +63,8 @@ Status RendererImpl::lightTerminals(Commands& commands) {
     const uint64_t bytes = known ? std::max(known->spanCount + known->leafCount, 1u) * 8ull * kLitWords : 0;
     const DeviceInfo& info = device_.info();
     const uint64_t room = bytes + bytes / 4 / 16 * 16, most = 16ull * info.limits.maxTexelBufferElements;
-    lit_ = isQuick(shading_) && plain_ && known && room <= std::min<uint64_t>(info.maxBufferBytes, most);
-    if (!lit_) return Done{};
+    now_.lit = isQuick(now_.shading) && now_.plain && known && room <= std::min<uint64_t>(info.maxBufferBytes, most);
+    if (!now_.lit) return Done{};
     if (!litTerminals_ || litTerminals_.size() < bytes) {
         Status made =
             makeTexels(device_, "lit terminals", room, VK_FORMAT_R32G32B32A32_UINT, litTerminals_, litTexels_);
@@ -78,8 +78,9 @@ Status RendererImpl::lightTerminals(Commands& commands) {
         const bool bark = b < terminals_.table().barkBuckets;
         LightPush push{pushOf(terminals_, b), {reinterpret_cast<uint64_t*>(litTerminals_.address())}};
         const Binding instances(bark ? emit_.spanTexels() : emit_.leafTexels());
-        pass.dispatchItems(litPrograms(*scene_, b).light, known->counts[b], push,
-                           {shadow, *frame_, emit_.state(), instances, terminals_.vertexTexels(), emit_.drawnTexels()});
+        pass.dispatchItems(
+            litPrograms(*now_.scene, b).light, known->counts[b], push,
+            {shadow, *now_.frame, emit_.state(), instances, terminals_.vertexTexels(), emit_.drawnTexels()});
     }
     pass.barrier(Use::compute, Use::vertex);
     return Done{};
@@ -100,32 +101,33 @@ void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
         const uint32_t material = table.buckets[b].material;
         const TerminalPush push = pushOf(terminals_, b);
         const uint64_t offset = offsetof(EmitState, draws) + 2ull * b * sizeof(DrawCommand);
-        const Binding color{terminals_.baseColor(material), lit_ ? quickSampler_ : textureSampler_};
+        const Binding color{terminals_.baseColor(material), isQuick(now_.shading) ? quickSampler_ : textureSampler_};
         const Binding normal{terminals_.normalMap(material), textureSampler_};
         const Binding shadow{shadowMap_, shadowSampler_};
         const Binding instances(bark ? emit_.spanTexels() : emit_.leafTexels()), meshes(terminals_.vertexTexels()),
             drawn(emit_.drawnTexels());
         if (!depthOnly && isLit(b))
-            pass.drawIndexedIndirect(litPrograms(*scene_, b).draw, emit_.state(), offset, 2, push,
-                                     {color, shadow, *frame_, emit_.state(), litTexels_});
+            pass.drawIndexedIndirect(litPrograms(*now_.scene, b).draw, emit_.state(), offset, 2, push,
+                                     {color, shadow, *now_.frame, emit_.state(), litTexels_});
         else if (!depthOnly && bark)
-            pass.drawIndexedIndirect(plain_ && small_[b] ? scene_->barkSmall : scene_->bark, emit_.state(), offset, 2,
-                                     push, {color, shadow, *frame_, emit_.state(), instances, meshes, drawn});
-        else if (!depthOnly && plain_ && small_[b])
-            pass.drawIndexedIndirect(scene_->leafSmall, emit_.state(), offset, 2, push,
-                                     {color, shadow, *frame_, emit_.state(), instances, meshes, drawn});
+            pass.drawIndexedIndirect(now_.plain && small_[b] ? now_.scene->barkSmall : now_.scene->bark, emit_.state(),
+                                     offset, 2, push,
+                                     {color, shadow, *now_.frame, emit_.state(), instances, meshes, drawn});
+        else if (!depthOnly && now_.plain && small_[b])
+            pass.drawIndexedIndirect(now_.scene->leafSmall, emit_.state(), offset, 2, push,
+                                     {color, shadow, *now_.frame, emit_.state(), instances, meshes, drawn});
         else if (!depthOnly)
-            pass.drawIndexedIndirect(scene_->leaf, emit_.state(), offset, 2, push,
-                                     {color, normal, shadow, *frame_, emit_.state(), instances, meshes, drawn});
+            pass.drawIndexedIndirect(now_.scene->leaf, emit_.state(), offset, 2, push,
+                                     {color, normal, shadow, *now_.frame, emit_.state(), instances, meshes, drawn});
         else if (bark)
             pass.drawIndexedIndirect(barkDepth_, emit_.state(), offset, 2, push,
-                                     {*frame_, emit_.state(), instances, meshes, drawn});
+                                     {*now_.frame, emit_.state(), instances, meshes, drawn});
         else if (push.alphaCutoff > 0)
             pass.drawIndexedIndirect(leafCutDepth_, emit_.state(), offset, 2, push,
-                                     {color, *frame_, emit_.state(), instances, meshes, drawn});
+                                     {color, *now_.frame, emit_.state(), instances, meshes, drawn});
         else
             pass.drawIndexedIndirect(leafDepth_, emit_.state(), offset, 2, push,
-                                     {*frame_, emit_.state(), instances, meshes, drawn});
+                                     {*now_.frame, emit_.state(), instances, meshes, drawn});
     }
 }
 
