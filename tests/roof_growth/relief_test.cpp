@@ -53,6 +53,18 @@ const std::string kPanes =
     "Panes -> T(0, 0, 0.02) Repeat(X, 2.5) {Pane}\n"
     "Pane -> T(0.75, 1) S(1, 1.35) Colour(0, 0, 0) Shape(\"slate\")\n";
 
+// A square picture.
+std::vector<uint8_t> picture(Device& device, Renderer& renderer, const DrawInputs& inputs, uint32_t pixels) {
+    DrawTarget target;
+    target.width = target.height = pixels;
+    Result<Commands> commands = Commands::begin(device, "roof");
+    REQUIRE(commands);
+    REQUIRE(renderer.draw(*commands, inputs, target));
+    REQUIRE(commands->finish());
+    device.collect();
+    return std::move(*renderer.readPixels());
+}
+
 // What of a picture of a house with walls 20 m long is dark, seen from before its middle, at the height of its eaves
 // and `above`.
 struct Seen {
@@ -74,14 +86,7 @@ Seen seen(Device& device, const std::string& grammar, const TerminalData& meshes
     drawn.camera.target = glm::vec3(10, float(house.structure.houses[0].eaveHeight) + above, -6);
     drawn.camera.eye = drawn.camera.target + glm::vec3(0, 0, away);
     drawn.look.shadows = false;
-    DrawTarget target;
-    target.width = target.height = kSide;
-    Result<Commands> commands = Commands::begin(device, "house from afar");
-    REQUIRE(commands);
-    REQUIRE(renderer->draw(*commands, drawn, target));
-    REQUIRE(commands->finish());
-    device.collect();
-    const std::vector<uint8_t> rgba = *renderer->readPixels();
+    const std::vector<uint8_t> rgba = picture(device, *renderer, drawn, kSide);
     Seen out{{}, renderer->stats().roofs};
     for (size_t i = 0; i < rgba.size(); i += 4) out.dark.push_back(rgba[i] + rgba[i + 1] + rgba[i + 2] < 150);
     return out;
@@ -123,15 +128,8 @@ struct Above {
         inputs.look.sunDirection = {0, 1, 0};
         inputs.look.exposure = -3;
         inputs.look.quick = quick;
-        DrawTarget target;
-        target.width = target.height = pixels;
-        Result<Commands> commands = Commands::begin(device, "roof from above");
-        REQUIRE(commands);
-        REQUIRE(renderer->draw(*commands, inputs, target));
-        REQUIRE(commands->finish());
-        device.collect();
+        const std::vector<uint8_t> rgba = picture(device, *renderer, inputs, pixels);
         CHECK(renderer->stats().roofs.tiles > 50);
-        const std::vector<uint8_t> rgba = *renderer->readPixels();
         double sum = 0;
         for (size_t i = 0; i < rgba.size(); i += 4) sum += double(rgba[i]) + rgba[i + 1] + rgba[i + 2];
         return sum / (3.0 * pixels * pixels);
