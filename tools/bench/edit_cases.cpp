@@ -201,11 +201,12 @@ class EditBench {
         std::vector<double> whole;
         bool partly = true;  // none grew everything anew
     };
-    // One of the dabs a round, each in its turn, and everything anew.
+    // One of the dabs a round, each in its turn, so often that noise doesn't pick the worst of them, and everything anew.
     Timed time(const std::vector<Dab>& dabs) {
         Timed timed;
         timed.dabs.resize(dabs.size());
-        const int rounds = std::max(bench_.options().repeats, 3 * int(dabs.size()));
+        constexpr int kTimesEach = 9;
+        const int rounds = std::max(bench_.options().repeats, kTimesEach * int(dabs.size()));
         for (int i = -1; i < rounds; ++i) {  // the first isn't counted
             const size_t dab = size_t(i + 1) % dabs.size();
             for (float value : {0.0f, 1.0f}) {
