@@ -161,36 +161,49 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
     endOverlay();
 }
 
+namespace {
+
+// From nothing to as much as the view tells apart, with what it is about above.
+void legendOf(const Workspace& work, EspView view, float most) {
+    const float s = work.scale;
+    const bool layer = view == ESP_VIEW_LAYER, levels = view == ESP_VIEW_LOD;
+    const float room = work.window.x - work.panelUnits() - 24 * s - 2 * ImGui::GetStyle().WindowPadding.x;
+    const float width = std::min((layer ? 120 : 260) * s, room), height = ImGui::GetFontSize();
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + std::min(260 * s, room));
+    ImGui::TextUnformatted(layer                    ? work.scene().viewLayer.c_str()
+                           : levels                 ? "Level of detail: 0 is the model itself"
+                           : view == ESP_VIEW_DEPTH ? "Branches between a stem and its seed"
+                                                    : "Fragments shaded for a pixel");
+    ImGui::PopTextWrapPos();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float steps = levels ? most + 1 : 64;
+    for (float i = 0; i < steps; ++i) {
+        ImGui::GetWindowDrawList()->AddRectFilled({at.x + width * i / steps, at.y},
+                                                  {at.x + width * (i + 1) / steps, at.y + height},
+                                                  faded(viewColour(view, levels ? i : most * (i + .5f) / steps)));
+    }
+    ImGui::Dummy({width, height});
+    ImGui::TextDisabled("0");
+    const std::string last = std::to_string(int(most)) + (layer ? "" : " and more");
+    ImGui::SameLine(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(last.c_str()).x);
+    ImGui::TextDisabled("%s", last.c_str());
+    if (limitingStroke(work)) hatchedRow(s);
+}
+
+}  // namespace
+
 void showLegend(const Workspace& work) {
     const EspView view = work.scene().look.view;
     float rgb[3], most = 0;
     const bool colours = view == ESP_VIEW_LAYER && isColour(work.scene(), work.scene().viewLayer);
-    if (view == ESP_VIEW_CHARTS || colours || espViewColour(view, 0, rgb, &most) != ESP_OK) return;
+    if (colours || (view != ESP_VIEW_CHARTS && espViewColour(view, 0, rgb, &most) != ESP_OK)) return;
     const float s = work.scale;
     const ImVec2 corner{work.panelUnits() + 12 * s, work.window.y - ImGui::GetFrameHeight() - 16 * s};
     if (beginOverlay(work, "legend", corner, {0, 1}, 0)) {
-        const bool layer = view == ESP_VIEW_LAYER, levels = view == ESP_VIEW_LOD;
-        const float room = work.window.x - work.panelUnits() - 24 * s - 2 * ImGui::GetStyle().WindowPadding.x;
-        const float width = std::min((layer ? 120 : 260) * s, room), height = ImGui::GetFontSize();
-        ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + std::min(260 * s, room));
-        ImGui::TextUnformatted(layer                    ? work.scene().viewLayer.c_str()
-                               : levels                 ? "Level of detail: 0 is the model itself"
-                               : view == ESP_VIEW_DEPTH ? "Branches between a stem and its seed"
-                                                        : "Fragments shaded for a pixel");
-        ImGui::PopTextWrapPos();
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float steps = levels ? most + 1 : 64;
-        for (float i = 0; i < steps; ++i) {
-            ImGui::GetWindowDrawList()->AddRectFilled({at.x + width * i / steps, at.y},
-                                                      {at.x + width * (i + 1) / steps, at.y + height},
-                                                      faded(viewColour(view, levels ? i : most * (i + .5f) / steps)));
-        }
-        ImGui::Dummy({width, height});
-        ImGui::TextDisabled("0");
-        const std::string last = std::to_string(int(most)) + (layer ? "" : " and more");
-        ImGui::SameLine(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(last.c_str()).x);
-        ImGui::TextDisabled("%s", last.c_str());
-        if (limitingStroke(work)) hatchedRow(s);
+        if (view == ESP_VIEW_CHARTS)
+            ImGui::TextUnformatted("A colour for each chart\nPale: links lead over its border");
+        else
+            legendOf(work, view, most);
     }
     endOverlay();
 }

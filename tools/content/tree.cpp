@@ -239,37 +239,55 @@ class Crown {
     float dense_, least_;
 };
 
+// The trunk, with its root's flare, and boughs that end in the lobes that they carry.
+class Wood {
+  public:
+    Wood(const Habit& h, glm::vec3 lean)
+        : h_(h), lean_(lean), top_(h.crownFoot + (h.crownTop - h.crownFoot) * (h.birch ? 0.9f : 0.5f)) {}
+
+    void addTrunk(Mesh& mesh, int lod) const {
+        const int sides = lod == 0 ? 7 : lod == 1 ? 4 : 3, pieces = lod == 0 ? 5 : 2;
+        const float bark = h_.birch ? 0.0625f : 0.0f;
+        std::vector<glm::vec3> line;
+        for (int i = 0; i <= pieces; ++i) line.push_back(axis(top_ * float(i) / float(pieces)) - glm::vec3(0, 0.1f, 0));
+        addTube(mesh, line, h_.trunk, h_.trunk * (h_.birch ? 0.12f : 0.22f), sides, bark, 0.6f);
+        if (lod > 0) return;
+        addTube(mesh, {{0, -0.1f, 0}, {0, 0.16f, 0}, {0, 0.5f, 0}}, h_.trunk * 1.55f, h_.trunk * 0.92f, sides, bark,
+                0.5f);
+    }
+    void addBough(Mesh& mesh, int lod, const Lobe& lobe) const {
+        const float tall = h_.crownTop - h_.crownFoot;
+        const glm::vec3 root = axis(glm::clamp(lobe.at.y - 0.3f * tall, 0.85f * h_.crownFoot, 0.9f * top_));
+        const glm::vec3 end = glm::mix(axis(std::min(lobe.at.y, top_)), lobe.at, 0.85f);
+        // Up from the trunk, then over.
+        const glm::vec3 bend = glm::mix(root, end, 0.5f) + glm::vec3(0, h_.birch ? 0.5f : 0.2f, 0);
+        const int pieces = lod == 0 ? 3 : 2;
+        std::vector<glm::vec3> line;
+        for (int i = 0; i <= pieces; ++i) {
+            const float t = float(i) / float(pieces);
+            line.push_back(glm::mix(glm::mix(root, bend, t), glm::mix(bend, end, t), t));
+        }
+        addTube(mesh, line, h_.trunk * (h_.birch ? 0.28f : 0.45f), h_.trunk * 0.04f, lod == 0 ? 4 : 3, 0, 0.5f);
+    }
+
+  private:
+    // The trunk's middle at a height.
+    glm::vec3 axis(float y) const {
+        const float t = y / top_;
+        return glm::vec3(0, y, 0) + lean_ * (t * t * top_ * 0.4f);
+    }
+    const Habit& h_;
+    glm::vec3 lean_;
+    float top_;
+};
+
 Mesh makeTree(const Habit& h, int lod) {
     Mesh mesh;
-    const float tall = h.crownTop - h.crownFoot, bark = h.birch ? 0.0625f : 0.0f;
     const glm::vec3 lean(0.25f * (random01(h.salt, 1) - 0.5f), 0, 0.25f * (random01(h.salt, 2) - 0.5f));
-    const int sides = lod == 0 ? 7 : lod == 1 ? 4 : 3;
-    if (h.trunk > 0) {
-        std::vector<glm::vec3> line;
-        const float top = h.crownFoot + tall * (h.birch ? 0.9f : 0.5f);
-        for (int i = 0; i <= (lod == 0 ? 5 : 2); ++i) {
-            const float t = float(i) / (lod == 0 ? 5.0f : 2.0f);
-            line.push_back(glm::vec3(0, top * t - 0.1f, 0) + lean * (t * t * top * 0.4f));
-        }
-        addTube(mesh, line, h.trunk, h.trunk * (h.birch ? 0.12f : 0.22f), sides, bark, 0.6f);
-        // The root's flare.
-        if (lod == 0)
-            addTube(mesh, {{0, -0.1f, 0}, {0, 0.16f, 0}, {0, 0.5f, 0}}, h.trunk * 1.55f, h.trunk * 0.92f, sides, bark,
-                    0.5f);
-    }
-    if (lod < 2)
-        for (int b = 0; b < h.boughs; ++b) {
-            const float angle = 2.399963f * float(b) + random01(h.salt, uint32_t(b), 5);
-            const float from = h.crownFoot * 0.85f + tall * 0.36f * float(b) / float(h.boughs);
-            const float t = glm::clamp((from - h.crownFoot) / tall + 0.24f, 0.1f, 0.9f);
-            const float reach = 0.58f * crownRadius(h, t);
-            const glm::vec3 root = glm::vec3(0, from, 0) + lean * (0.1f * from);
-            const glm::vec3 end(reach * std::cos(angle), h.crownFoot + tall * (t + 0.08f), reach * std::sin(angle));
-            const glm::vec3 bend = glm::mix(root, end, 0.5f) + glm::vec3(0, h.birch ? 0.5f : -0.18f, 0);
-            addTube(mesh, {root, bend, end}, h.trunk * (h.birch ? 0.28f : 0.45f), h.trunk * 0.10f, lod == 0 ? 4 : 3, 0,
-                    0.5f);
-        }
     const std::vector<Lobe> lobes = lobesOf(h, lean);
+    const Wood wood(h, lean);
+    if (h.trunk > 0) wood.addTrunk(mesh, lod);
+    for (int b = 0; b < h.boughs && lod < 2; ++b) wood.addBough(mesh, lod, lobes[size_t(b * (h.lobes - 1) / h.boughs)]);
     const Crown crown(h, lobes);
     std::vector<Twig> twigs = twigsOf(h, lobes);
     gather(twigs);
