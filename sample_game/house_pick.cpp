@@ -137,6 +137,12 @@ std::optional<uint32_t> Workspace::pickHouse(glm::vec2 at) const {
     return found ? std::optional(found->house) : std::nullopt;
 }
 
+std::optional<EspTownInfo> Workspace::town() const {
+    EspTownInfo info;
+    if (espHouseCount(context.get()) == 0 || espTownInfo(context.get(), &info) != ESP_OK) return {};
+    return info;
+}
+
 bool Workspace::meets(const Ray& ray, float reach, EspHit& met) const {
     bool found = espPick(context.get(), &ray.origin.x, &ray.direction.x, &met) == ESP_OK && met.distance <= reach;
     const auto nearer = [&](float distance, glm::vec3 normal) {
@@ -147,10 +153,9 @@ bool Workspace::meets(const Ray& ray, float reach, EspHit& met) const {
         std::copy(&normal.x, &normal.x + 3, met.normal);
         found = true;
     };
-    EspTownInfo town{};
-    const bool ground = scene().look.ground || espTownInfo(context.get(), &town) == ESP_OK;
-    const float level = scene().look.ground ? scene().look.groundLevel : town.groundHeight;
-    if (ground && ray.direction.y < 0) {
+    const std::optional<EspTownInfo> there = town();
+    if ((scene().look.ground || there) && ray.direction.y < 0) {
+        const float level = scene().look.ground ? scene().look.groundLevel : there->groundHeight;
         const float down = (level - ray.origin.y) / ray.direction.y;
         if (down >= 0 && down < (found ? met.distance : reach)) nearer(down, {0, 1, 0});
     }
@@ -168,11 +173,11 @@ std::optional<EspHit> Workspace::pickGround(glm::vec2 at) const {
 
 std::optional<EspHit> Workspace::aim(glm::vec2 at) const {
     std::optional<EspHit> surface = pickGround(at);
-    EspTownInfo town;
-    if (!townLayer(brush.layer) || espTownInfo(context.get(), &town) != ESP_OK) return surface;
+    const std::optional<EspTownInfo> there = townLayer(brush.layer) ? town() : std::nullopt;
+    if (!there) return surface;
     const Ray ray = rayThrough(at);
     float nearest = surface ? surface->distance : kMissed;
-    const float ground = (town.groundHeight - ray.origin.y) / (ray.direction.y != 0 ? ray.direction.y : 1e-20f);
+    const float ground = (there->groundHeight - ray.origin.y) / (ray.direction.y != 0 ? ray.direction.y : 1e-20f);
     float met = ground > 0 && ground < 1e4f ? ground : kMissed;
     if (const auto wall = meetHouse(ray, std::min(nearest, met))) met = wall->distance;
     if (met >= nearest) return surface;

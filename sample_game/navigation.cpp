@@ -56,9 +56,8 @@ bool within(const Workspace& work, glm::vec2 mouse) {
 // How far ahead what lies there stands; nothing: the sky does, or it is so far away that nobody means it.
 std::optional<float> depthOf(const Workspace& work, const Ray& ray) {
     EspHit hit;
-    EspTownInfo town{};  // without one: as large as nothing
-    (void)espTownInfo(work.context.get(), &town);
-    const float most = 2 * std::max({work.reach(), town.layerSide, work.camera.distance()});
+    const std::optional<EspTownInfo> town = work.town();
+    const float most = 2 * std::max({work.reach(), town ? town->layerSide : 0, work.camera.distance()});
     float distance = work.meets(ray, most, hit) ? hit.distance : most;
     EspPlantHit plant;  // leaves are seen where no ground is
     if (espPickPlant(work.context.get(), &ray.origin.x, &ray.direction.x, &plant) == ESP_OK)

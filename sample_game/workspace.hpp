@@ -106,7 +106,8 @@ struct Workspace {
     float shift() const;
     // Of the surfaces, else of the houses, world; a metre's cube if there are none.
     std::pair<glm::vec3, glm::vec3> bounds() const;
-    float reach() const;  // how large the scene is, metres
+    float reach() const;                      // how large the scene is, metres
+    std::optional<EspTownInfo> town() const;  // nothing: there is none
     void lookFrom(const EspCamera& from);
     void lookFromStart() { lookFrom(start); }
     void frameAll();

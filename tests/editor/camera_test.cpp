@@ -201,6 +201,25 @@ TEST_CASE("Home shows what plants grow on, not the village around it") {
     CHECK(std::max(filled.x, filled.y) > .85f);
 }
 
+TEST_CASE("numpad 0 leads back to where the scene begins, and so does Home in the game") {
+    const Folder folder;
+    Visitor visitor(folder);
+    const glm::vec3 start = sample::vec(visitor.work.scene().camera.eye);
+    const auto away = [&] { return between(visitor.camera().eye(), start); };
+    visitor.wheel(8);
+    visitor.look({200, 40});
+    REQUIRE(away() > .5f);
+    visitor.key(GLFW_KEY_HOME);
+    CHECK(away() > .1f);
+    visitor.key(GLFW_KEY_KP_0);
+    CHECK(away() < 1e-4f);
+    visitor.wheel(8);
+    REQUIRE(away() > .5f);
+    visitor.controls.setEditing(false);
+    visitor.key(GLFW_KEY_HOME);
+    CHECK(away() < 1e-4f);
+}
+
 TEST_CASE(
     "what is pressed upon stays under the mouse when the camera moves sideways, and in the middle when it turns") {
     const Folder folder;

@@ -62,7 +62,8 @@ struct Editor : Window {
     Editor(const Folder& folder, const std::string& file, sample::Tool tool) : Window(folder, file) {
         work.editing = true;
         work.brush.layer = work.scene().layers.empty() ? "" : work.scene().layers.front();
-        work.lookFrom(work.scene().camera);
+        work.start = work.scene().camera;
+        work.lookFromStart();
         work.choose(tool);
         work.document->listen([this](const espalier::document::Action& action, uint32_t) { done.push_back(action); });
     }
