@@ -101,6 +101,7 @@ void BrushTool::begin(Workspace& work, int mods) {
     }
     gesture_ = work.newGesture();
     stroke_ = strokeOf(work, mods);
+    stateBefore_ = work.document->state();
     painting_ = work.perform(stroke_, gesture_);
     lastDab_.reset();
     dabs_.dabs.clear();
@@ -109,8 +110,13 @@ void BrushTool::begin(Workspace& work, int mods) {
 void BrushTool::end(Workspace& work) {
     flush(work);
     if (painting_) work.perform(StrokeEnd{}, gesture_);
-    if (std::exchange(painting_, false) && !lastDab_)
+    if (!std::exchange(painting_, false)) return;
+    if (!lastDab_)
         work.message = work.townLayer(work.brush.layer) ? "No roof there" : kNoGround;
+    else if (work.error.empty() && work.document->state() == stateBefore_)
+        work.message = "Nothing changed: it is " + std::string(stroke_.mode == "erase" ? "as it comes" : "so") +
+                       " there already" +
+                       (stroke_.colour.empty() && stroke_.mode != "smooth" ? "; X: the opposite" : "");
 }
 
 void BrushTool::flush(Workspace& work) {

@@ -41,6 +41,7 @@ class BrushTool {
     std::optional<glm::vec3> lastDab_;
     espalier::document::StrokeDabs dabs_;
     uint32_t gesture_ = 0;
+    uint64_t stateBefore_ = 0;  // the stroke, of the document
     Sizing sizing_ = Sizing::none;
     glm::vec2 sizingFrom_{0};
     float before_ = 0;

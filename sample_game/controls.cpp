@@ -167,7 +167,10 @@ void Controls::takeToolKey(const KeyEvent& event) {
         if (key == GLFW_KEY_LEFT_BRACKET) radius = std::max(radius / 1.15f, .005f);
         if (key == GLFW_KEY_RIGHT_BRACKET) radius = std::min(radius * 1.15f, 20.f);
         const bool colour = isColour(work_.scene(), work_.brush.layer);  // which has no opposite
-        if (key == GLFW_KEY_X && !colour) work_.brush.value = 1 - work_.brush.value;
+        if (key == GLFW_KEY_X && !colour) {
+            work_.brush.value = 1 - work_.brush.value;
+            if (work_.brush.mode == "erase") work_.brush.mode = "paint";  // which is what has a value
+        }
         if (key == GLFW_KEY_F) brush_.startSizing(work_, {event.x, event.y}, event.mods & GLFW_MOD_SHIFT);
     }
     if (!paints && key == GLFW_KEY_F) {

@@ -185,16 +185,17 @@ void showText(Workspace& work, const std::vector<Remark>& remarks, int lines, fl
     const ImVec2 at = ImGui::GetCursorScreenPos();
     // As high as the text's window, which ImGui makes no lower.
     const ImVec2 size{ImGui::CalcTextSize("0000").x + 8, std::max(4.f, ImGui::GetContentRegionAvail().y - below)};
-    float scrolled = 0;
+    float scrolled = 0, bar = 0;  // below the text, to scroll it sideways
     // A click at the numbers is meant for the text.
     state.wanted |= ImGui::InvisibleButton("numbers", size);
     ImGui::SameLine(0, 0);
     if (ImGui::BeginChild("text", {0, -below}, false, ImGuiWindowFlags_HorizontalScrollbar)) {
         editText(work, lines, state);
         scrolled = ImGui::GetScrollY();
+        bar = ImGui::GetCurrentWindow()->ScrollbarSizes.y;
     }
     ImGui::EndChild();
-    lineNumbers(lines, remarks, at, size, scrolled);
+    lineNumbers(lines, remarks, at, {size.x, size.y - bar}, scrolled);
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
         ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, some);
         bool changed = checkBox(info.label, &has);
         ImGui::PopItemFlag();
-        toolTip((std::string(info.label) + ": a value of their own in place of the grammar's").c_str());
+        toolTip("A value of their own in place of the grammar's");
         has = has || some;  // those that had none get it, too
         uint32_t gesture = 0;
         if (has && !changed) {
@@ -167,7 +167,7 @@ void chosenSeeds(Workspace& work) {
     const bool several = std::ranges::any_of(chosen, [&](const SeedRecord& seed) { return seed.number != number; });
     ImGui::PushID(int(chosen[0].key));
     const bool typed =
-        ImGui::InputScalar("##number", ImGuiDataType_S64, &number, nullptr, nullptr, several ? "%lld, others" : "%lld");
+        ImGui::InputScalar("##number", ImGuiDataType_S64, &number, nullptr, nullptr, several ? "%lld \u2026" : "%lld");
     const bool escaped = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
     if (escaped) {
         work.takeBack(work.gesture());
@@ -320,7 +320,7 @@ void lightPanel(Workspace& work) {
     toolTip("As the scene's file says, or of a day, by its time");
     if (changed) light.hour = own ? espalier::scene::kOwnSun : kMorning;
     float hour = own ? kMorning : light.hour;
-    const int minutes = int(std::lround(hour * 60)) % 1440;
+    const int minutes = int(std::lround(hour * 60));
     char text[16];
     std::snprintf(text, sizeof text, own ? "not set" : "%d:%02d", minutes / 60, minutes % 60);
     if (labelledSlider("Time", &hour, 0, 24, text, false, hoursOf)) light.hour = hour, changed = true;

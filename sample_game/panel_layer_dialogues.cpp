@@ -59,7 +59,7 @@ void layerDialogues(Workspace& work, Session& session) {
     const std::string others =
         surfaces > 1 ? "\nIt is the first surface's; those of the others are called so, with -1, -2 ..." : "";
     const std::string read = (town ? "Picture of the town from above, north up (.png, .exr):"
-                                   : "Picture in the surface's walk UVs, as Export writes it (.png, .exr):") +
+                                   : "Picture over the surface's atlas (F5), as Export writes it (.png, .exr):") +
                              others;
     const std::string written = "File of the picture (.png: 16 bits, .exr: floats):" + others;
     const std::vector<std::string> endings{".png", ".exr"};

@@ -67,7 +67,7 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     char fill[160];
     std::snprintf(fill, sizeof fill,
                   "Fills the whole layer with the brush's value, %.2f. Where nothing was painted it is %.2f",
-                  brush.value, layer.fill[0]);
+                  brush.value, double(espalier::scene::fillOf(work.context.get(), scene, layer.name)));
     if (layer.colour()) {
         if (button("Clear", "Fills the whole layer with the grammar's own colour"))
             work.perform(FillLayer{layer.name, 0, layer.fill});

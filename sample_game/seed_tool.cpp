@@ -79,6 +79,7 @@ void SeedTool::changeChosen(Workspace& work, Change&& change) {
 void SeedTool::press(Workspace& work, const PointerEvent& event) {
     const glm::vec2 at{event.x, event.y};
     from_ = last_ = at;
+    grip_ = {};
     moved_ = changed_ = false;
     gesture_ = work.newGesture();
     if ((event.mods & GLFW_MOD_CONTROL) && !(event.mods & GLFW_MOD_SHIFT)) return beginRow(work, at);
@@ -135,7 +136,8 @@ void SeedTool::follow(Workspace& work, glm::vec2 at) {
         last_ = at;
         return;
     }
-    const auto hit = seen(work, at);
+    const bool one = drag_ == Drag::move && chosenCount(work) == 1;
+    const auto hit = seen(work, one ? at + grip_ : at);
     if (!hit) return;
     const glm::vec3 point = vec(hit->position);
     const auto towards = [&](SeedRecord& seed) {
@@ -147,9 +149,9 @@ void SeedTool::follow(Workspace& work, glm::vec2 at) {
     } else if (drag_ == Drag::turn) {
         changeChosen(work, towards);
     } else if (drag_ == Drag::move) {
-        // A single one follows the mouse onto whatever surface is under it, several stand to each other as they did.
+        // A single one goes with the mouse onto whatever surface lies there, several stand to each other as they did.
         const auto before = seen(work, last_);
-        if (chosenCount(work) == 1)
+        if (one)
             changeChosen(work, [&](SeedRecord& seed) { seed.position = array(point); });
         else if (before)
             changeChosen(work, [&, by = point - vec(before->position)](SeedRecord& seed) {
@@ -209,6 +211,10 @@ void SeedTool::grab(Workspace& work, glm::vec2 at, bool turns) {
 
 void SeedTool::followMouse(Workspace& work, glm::vec2 at, bool turns) {
     from_ = last_ = at;
+    grip_ = {};
+    for (const Seed& seed : work.scene().seeds)
+        if (work.selected.count(seed.key) && chosenCount(work) == 1)
+            grip_ = work.place(vec(seed.position)).value_or(at) - at;
     moved_ = byKey_ = true;
     changed_ = false;
     gesture_ = work.newGesture();

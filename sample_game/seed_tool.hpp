@@ -41,6 +41,7 @@ class SeedTool {
 
     Drag drag_ = Drag::none;
     glm::vec2 from_{0}, last_{0};
+    glm::vec2 grip_{0};  // from the mouse to the one that G moves
     bool moved_ = false, changed_ = false;
     uint32_t alone_ = 0;         // the seed that a click without a move leaves as the only one chosen; 0: none
     bool byKey_ = false;         // no button is held

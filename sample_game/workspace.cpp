@@ -94,6 +94,18 @@ std::vector<glm::vec3> Workspace::seenGround() const {
             }
     if (points.size() < kLeast) return {};
     if (standing.size() > kLeast) points = std::move(standing);
+    // Walls that are ground bear a roof, which belongs to them.
+    constexpr glm::vec3 kNear(.3f);
+    std::vector<glm::vec3> corners;
+    for (uint32_t i = 0; i < espHouseCount(context.get()); ++i) {
+        EspHouseInfo info;
+        if (espHouseInfo(context.get(), i, &info) != ESP_OK) continue;
+        const glm::vec3 least = vec(info.boundsMin) - kNear, most = vec(info.boundsMax) + kNear;
+        if (std::ranges::any_of(points, [&](glm::vec3 p) { return glm::clamp(p, least, most) == p; }))
+            for (int c = 0; c < 4; ++c)
+                corners.emplace_back(c & 1 ? most.x : least.x, most.y, c & 2 ? most.z : least.z);
+    }
+    points.insert(points.end(), corners.begin(), corners.end());
     for (const auto& seed : scene().seeds) points.push_back(vec(seed.position));
     return points;
 }

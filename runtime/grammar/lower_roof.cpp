@@ -260,7 +260,9 @@ class RoofLowering {
                        StageReads& reads, const Place& place) {
         r.firstSuccessor = static_cast<uint32_t>(c_.successors.size());
         std::vector<uint32_t> seen;
-        for (uint32_t part = 0; part < parts.size(); ++part)
+        for (uint32_t part = 0; part < parts.size(); ++part) {
+            // A joint's number tells it apart: its draws stay where it is no longer level.
+            if (r.kind == kRuleExplode) seen.clear();
             for (const Target& to : parts[part]) {
                 SuccessorRecord s = {};
                 s.symbol = to.symbol;
@@ -276,6 +278,7 @@ class RoofLowering {
                 c_.generate(nodes, sites, reads, s.code, {s.args, nodes.size()}, place, env.rule);
                 c_.successors.push_back(s);
             }
+        }
         r.successorCount = static_cast<uint32_t>(c_.successors.size()) - r.firstSuccessor;
         if (r.successorCount > kMaxSuccessors) error(place, env, "too many successors: 16 are the most");
     }

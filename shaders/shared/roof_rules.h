@@ -181,7 +181,9 @@ FN RoofChild exploded(RoofEnv env, RoofScope shape, RoofAtom atom, RoofRegion r,
             RoofScope eave = segmentOf(shape, from, from + r.axisA * atom.eaveLength, shape.axisY);
             eave.region = kNoIndex;
             eave.marks |= kShapeOwner;
-            return childFor(eave, 1u);
+            RoofChild c = childFor(eave, 1u);
+            c.number = k;
+            return c;
         }
         RoofPiece piece = readPiece(env, atom.firstPiece + k - 2u);
         vec3 d = r.axisA * (piece.to.x - piece.from.x) + r.axisB * (piece.to.y - piece.from.y) + r.axisC * (piece.to.z - piece.from.z);
@@ -197,7 +199,9 @@ FN RoofChild exploded(RoofEnv env, RoofScope shape, RoofAtom atom, RoofRegion r,
     vec3 from = k == 1u ? o : k == 2u ? o + x : k == 3u ? upperRight : upperLeft;
     vec3 to = k == 1u ? o + x : k == 2u ? upperRight : k == 3u ? upperLeft : o;
     vec3 inward = k == 1u ? shape.axisY : k == 2u ? -shape.axisX : k == 3u ? -shape.axisY : shape.axisX;
-    return childFor(segmentOf(shape, from, to, inward), k);
+    RoofChild side = childFor(segmentOf(shape, from, to, inward), k);
+    side.number = k;
+    return side;
 }
 
 FN RoofChild splitPart(RuleRecord rule, RoofNumbers n, RoofScope shape, uint k) {

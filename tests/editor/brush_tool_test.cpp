@@ -347,6 +347,25 @@ TEST_CASE("F and a move set the radius alone, Shift+F the strength, and neither 
     CHECK(painter.all<StrokeBegin>()[0].radius == doctest::Approx(larger));
 }
 
+TEST_CASE("a stroke that changes nothing says so") {
+    const Folder folder;
+    Painter painter(folder);
+    REQUIRE(painter.work.perform(FillLayer{"mask", 1}));
+    const glm::vec2 from = painter.onWall(-1, 1), to = painter.onWall(-.6f, 1);
+    for (const std::string mode : {"erase", "paint"}) {
+        CAPTURE(mode);
+        painter.work.brush.mode = mode;
+        painter.work.message.clear();
+        painter.drag(from, to);
+        CHECK_MESSAGE(contains(painter.work.message, "Nothing changed"), painter.work.message);
+    }
+    painter.work.brush.mode = "paint";
+    painter.key(GLFW_KEY_X);
+    painter.work.message.clear();
+    painter.drag(from, to);
+    CHECK(painter.work.message == "");
+}
+
 TEST_CASE("X paints the opposite value") {
     const Folder folder;
     Painter painter(folder);
@@ -355,6 +374,13 @@ TEST_CASE("X paints the opposite value") {
     painter.drag(painter.onWall(-1, 1), painter.onWall(-.6f, 1));
     REQUIRE(painter.all<StrokeBegin>().size() == 1);
     CHECK(painter.all<StrokeBegin>()[0].value == .25f);
+
+    // What is erased has no value: the opposite is painted.
+    painter.work.brush.mode = "erase";
+    painter.key(GLFW_KEY_X);
+    CHECK(painter.work.brush.mode == "paint");
+    CHECK(painter.work.brush.value == .75f);
+    painter.work.brush.value = .25f;
 
     // A colour has none, and the value isn't seen with one in hand.
     painter.work.chooseLayer("colour");

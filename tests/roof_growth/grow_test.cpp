@@ -437,3 +437,26 @@ TEST_CASE("endless recursion is stopped and counted") {
     CHECK(cpu.status.stopped == 4);
     CHECK(cpu.records.grids.empty());
 }
+
+TEST_CASE("what is drawn at a ridge stays drawn where the outline leans and the ridge is no longer level") {
+    const std::string grammar =
+        "House -> Extrude(wallHeight) {NULL, TopWall}\n"
+        "TopWall -> Join(roofHeight, roofPos1, roofPos2) {NULL, Joints, NULL}\n"
+        "Joints -> Explode() {NULL, NULL, Line, Line, Line}\n"
+        "Line : owner == 1 and joint == ridge and rand() < 0.5 -> S(0.5, 0.5) Shape(\"panel\")\n"
+        "Line -> NULL\n";
+    const auto drawn = [&](uint32_t number, double lean) {
+        Footprint house = footprint({{0, 0}, {14, 0}, {14 + lean, 9 + lean}, {0, 9}}, RoofShape::hip, 0.8);
+        house.id = "house " + std::to_string(number);
+        return growRoofsOnCpu(roofs({house}, grammar).inputs()).records.grids.size();
+    };
+    size_t some = 0;
+    for (uint32_t number = 0; number < 24; ++number) {
+        CAPTURE(number);
+        const size_t level = drawn(number, 0);
+        some += level;
+        for (const double lean : {0.4, -0.4, 1.5}) CHECK(drawn(number, lean) == level);
+    }
+    CHECK(some > 6);
+    CHECK(some < 18);
+}

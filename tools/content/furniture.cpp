@@ -144,7 +144,8 @@ Mesh well(int) {
                0.25f);
         b.quad(at(a0, 0.62f, 0.3f), at(a0, 0.0f, 0.3f), at(a1, 0.0f, 0.3f), at(a1, 0.62f, 0.3f), Paint::iron, 0.1f);
     }
-    for (float x : {-0.84f, 0.84f}) b.box({x - 0.07f, 0.9f, -0.07f}, {x + 0.07f, 2.1f, 0.07f}, Paint::darkWood, 0.5f);
+    for (float x : {-0.84f, 0.84f}) b.box({x - 0.07f, 0.9f, -0.07f}, {x + 0.07f, 2.6f, 0.07f}, Paint::darkWood, 0.5f);
+    b.box({-1.1f, 2.54f, -0.06f}, {1.1f, 2.66f, 0.06f}, Paint::darkWood, 0.4f);
     b.box({-0.9f, 1.42f, -0.09f}, {0.9f, 1.58f, 0.09f}, Paint::wood, 0.45f);
     b.box({-0.16f, 0.98f, -0.14f}, {0.16f, 1.22f, 0.14f}, Paint::darkWood, 0.55f, -0.03f);
     for (int i = 0; i < rows; ++i)

@@ -7,19 +7,18 @@ namespace {
 
 using glm::vec3;
 
-// Of windows' and doors' parts whose details aren't told apart any more, and of those that are smaller than a pixel.
-constexpr float kFlatPixels = 40, kMergedPixels = 11;
+// Across, where details have no depth any more, and where bars are less than a pixel.
+constexpr float kFlatPixels = 40, kBarlessPixels = 11;
 
-// Two leaves with two bars each. The coarsest level has bars and what is seen between them as one.
+// Two leaves with two bars each, which the coarsest level leaves out.
 Mesh casement(int lod) {
     Solid s;
     constexpr float kRim = 0.07f;
     if (lod == 2) {
-        s.quad({0, 0, 1}, {1, 0, 1}, {1, 0.06f, 1}, {0, 0.06f, 1})
-            .quad({0, 0.95f, 1}, {1, 0.95f, 1}, {1, 1, 1}, {0, 1, 1});
+        s.quad({0, 0, 1}, {1, 0, 1}, {1, 0.06f, 1}, {0, 0.06f, 1});
+        s.quad({0, 0.95f, 1}, {1, 0.95f, 1}, {1, 1, 1}, {0, 1, 1});
         s.quad({0, 0.06f, 1}, {kRim, 0.06f, 1}, {kRim, 0.95f, 1}, {0, 0.95f, 1});
-        s.quad({1 - kRim, 0.06f, 1}, {1, 0.06f, 1}, {1, 0.95f, 1}, {1 - kRim, 0.95f, 1});
-        return s.quad({kRim, 0.06f, 1}, {1 - kRim, 0.06f, 1}, {1 - kRim, 0.95f, 1}, {kRim, 0.95f, 1}, 0.09f).mesh;
+        return s.quad({1 - kRim, 0.06f, 1}, {1, 0.06f, 1}, {1, 0.95f, 1}, {1 - kRim, 0.95f, 1}).mesh;
     }
     s.box({0, 0, 0}, {1, 0.06f, 1}).box({0, 0.95f, 0}, {1, 1, 1});
     s.box({0, 0.06f, 0}, {kRim, 0.95f, 1}).box({1 - kRim, 0.06f, 0}, {1, 0.95f, 1});
@@ -101,7 +100,7 @@ void addOpenings(RoofMeshes& out) {
         out.all.push_back({"door" + end, door(lod), 1, pixels});
         out.all.push_back({"curtains" + end, curtains(lod), 2, pixels});
     }
-    out.all.push_back({"casement_lod2", casement(2), 1, kMergedPixels});
+    out.all.push_back({"casement_lod2", casement(2), 1, kBarlessPixels});
     out.all.push_back({"surround_lod0", surround(), 0});
 }
 

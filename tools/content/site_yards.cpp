@@ -22,21 +22,26 @@ void Layout::row(const std::string& piece, vec2 a, vec2 b, int gate) {
     const float length = glm::distance(a, b);
     const int count = std::max(1, int(std::round(length / 2)));
     const float degrees = -std::atan2(b.y - a.y, b.x - a.x) * 180 / kPi, scale = length / (2 * float(count));
-    const bool posts = piece == "fence" || piece == "rails";  // their pieces have one where they begin
+    // Pieces of fences have a post where they begin, walls have piers at both ends.
+    const bool posts = piece == "fence" || piece == "rails", piers = piece == "wall";
+    const auto joint = [&](int i) { return glm::mix(a, b, float(i) / float(count)); };
+    const auto stand = [&](const char* what, vec2 at, float room) {
+        if (plan_.toHouse(at) > room && (posts || plan_.paved(at) < -0.3f)) put(what, at, degrees, 1);
+    };
     for (int i = 0, last = -1; i <= count; ++i) {
         const vec2 at = glm::mix(a, b, (float(i) + 0.5f) / float(count));
-        if (i == count || i == gate || plan_.paved(at) > -0.3f || plan_.toHouse(at) < 0.25f) {
-            const vec2 end = glm::mix(a, b, float(i) / float(count));
-            if (posts && last >= 0 && last == i - 1 && plan_.toHouse(end) > 0.1f) put("post", end, degrees, 1);
+        const bool into = std::min(plan_.toHouse(joint(i)), plan_.toHouse(joint(i + 1))) < -0.1f;
+        const bool goesOn = i > 0 && last == i - 1;
+        if (i == count || i == gate || plan_.paved(at) > -0.3f || plan_.toHouse(at) < 0.25f || into) {
+            if (posts && goesOn) stand("post", joint(i), 0.1f);
+            if (piers && goesOn) stand("pier", joint(i), 0.3f);
             continue;
         }
+        if (piers && !goesOn) stand("pier", joint(i), 0.3f);
         put(piece, at, degrees, scale, 0);
         taken_.push_back({at, piece == "hedge" ? 1.3f : 1.0f});
         last = i;
     }
-    if (piece == "wall")
-        for (vec2 end : {a, b})
-            if (plan_.paved(end) < -0.3f && plan_.toHouse(end) > 0.3f) put("pier", end, degrees, 1);
 }
 
 // A yard before each door that a path leads to: fenced towards the street on both sides of the gate and back to the
