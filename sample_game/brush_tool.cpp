@@ -206,9 +206,9 @@ namespace {
 
 // The ring's runs of places in the window that are seen and lie next to each other in the scene, no further than
 // `apart`.
-std::vector<std::vector<ImVec2>> runsOf(const Workspace& work, const std::vector<glm::vec3>& ring, float apart) {
+std::vector<std::vector<ImVec2>> runsOf(const Workspace& work, const std::vector<glm::vec3>& ring,
+                                        const std::vector<bool>& hidden, float apart) {
     const size_t count = ring.size();
-    const std::vector<bool> hidden = work.hidden(ring);
     std::vector<std::optional<glm::vec2>> places;
     for (const glm::vec3& point : ring) places.push_back(work.place(point));
     const auto joined = [&](size_t i) {  // with the one before
@@ -246,7 +246,9 @@ void BrushTool::drawCircle(const Workspace& work, int mods, const EspHit& hit) c
             const float angle = 6.2831853f * float(i) / kPoints;
             points.push_back(disc.rim({std::cos(angle), std::sin(angle)}, share));
         }
-        return runsOf(work, points, kApart * share * disc.radius);
+        // Over a town the circle lies flat, in houses too.
+        const std::vector<bool> hidden = disc.flat ? std::vector<bool>(points.size()) : work.hidden(points);
+        return runsOf(work, points, hidden, kApart * share * disc.radius);
     };
     const auto draw = [&](const std::vector<std::vector<ImVec2>>& runs, ImU32 with, float width) {
         for (const auto& run : runs) list.AddPolyline(run.data(), int(run.size()), with, 0, width * work.scale);
