@@ -201,7 +201,8 @@ class EditBench {
         std::vector<double> whole;
         bool partly = true;  // none grew everything anew
     };
-    // One of the dabs a round, each in its turn, so often that noise doesn't pick the worst of them, and everything anew.
+    // One of the dabs a round, each in its turn, so often that noise doesn't pick the worst of them, and everything
+    // anew.
     Timed time(const std::vector<Dab>& dabs) {
         Timed timed;
         timed.dabs.resize(dabs.size());
