@@ -371,7 +371,7 @@ ESP_API EspResult espDropFrame(EspContext* context);
  * a host's scene, of another size, or one that failed has taken its place since. */
 ESP_API EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes);
 
-/* A camera that shows all surfaces and houses from the front right. */
+/* A camera that shows all surfaces and houses from the front right, and what is flat, as a town is, from further above. */
 ESP_API EspCamera espFrameAll(const EspContext* context);
 
 typedef struct EspStats {

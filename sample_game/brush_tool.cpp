@@ -114,9 +114,10 @@ void BrushTool::end(Workspace& work) {
     if (!lastDab_)
         work.message = work.townLayer(work.brush.layer) ? "No roof there" : kNoGround;
     else if (work.error.empty() && work.document->state() == stateBefore_)
-        work.message = "Nothing changed: it is " + std::string(stroke_.mode == "erase" ? "as it comes" : "so") +
-                       " there already" +
-                       (stroke_.colour.empty() && stroke_.mode != "smooth" ? "; X: the opposite" : "");
+        work.message = work.brushLimited() ? "Nothing changed: it is so already, or the brush's limits keep paint off"
+                       : !stroke_.colour.empty() || stroke_.mode == "smooth" ? "Nothing changed: it is so already"
+                       : stroke_.mode == "erase" ? "Nothing changed: it is as it comes already; X: the opposite"
+                                                 : "Nothing changed: it is so already; X: the opposite";
 }
 
 void BrushTool::flush(Workspace& work) {

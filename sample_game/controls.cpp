@@ -6,6 +6,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "sample_game/panels.hpp"
 #include "tools/scene/layers.hpp"
@@ -272,6 +273,7 @@ void Controls::take(const std::vector<InputEvent>& events, float wheel) {
 }
 
 bool Controls::step(const Input& input, float seconds) {
+    if (std::exchange(work_.looked, false)) navigation_.moved();
     return navigation_.step(work_, input, seconds, ImGui::GetIO().WantTextInput);
 }
 

@@ -22,7 +22,7 @@ using espalier::scene::Ring;
 using espalier::scene::ringOf;
 
 constexpr float kCornerReach = 11, kEdgeReach = 8, kMergeReach = 6, kTremble = 4;  // pixels at 96 dpi
-constexpr float kDepth = 4;
+constexpr float kDepth = 4;  // metres that a pixel is at the most in depth, by what it is across
 constexpr ImU32 kOutline = IM_COL32(255, 255, 255, 230), kChosen = IM_COL32(255, 170, 50, 255),
                 kGable = IM_COL32(250, 220, 90, 255), kEave = IM_COL32(110, 210, 255, 255),
                 kShade = IM_COL32(0, 0, 0, 140);

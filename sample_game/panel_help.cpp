@@ -28,7 +28,7 @@ void showHelp(Workspace& work) {
                          {"Ctrl+drag, Shift+drag", "erase (back to as it comes), smooth"},
                          {"X", "the opposite value: to take away what would be painted"},
                          {"[ and ]", "smaller, larger brush"},
-                         {"F, Shift+F, then move", "radius, strength; click to keep it"},
+                         {"F, Shift+F, then move", "size, strength; click to keep it"},
                          {"V", "show or hide what is painted"}};
     const Row seeds[] = {{"S, then click", "plant; drag gives the direction"},
                          {"Ctrl+drag", "plant a row"},
@@ -45,7 +45,7 @@ void showHelp(Workspace& work) {
                        {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
                        {"Ctrl+O, Ctrl+E, Ctrl+Q", "open, export the layer, quit"},
                        {"1 2 3 4 5 6", "shaded, charts, normals, levels of detail, branches from the seed, overdraw"},
-                       {"F2 F3 F4 F5", "panel, figures, grammar, atlas"},
+                       {"F2 F3 F4 F5", "panel, statistics, grammar, atlas"},
                        {"F12", "write a screenshot"},
                        {"Esc, Q", "puts the tool away; Esc stops growth that takes long"}};
     ImGui::SetNextWindowPos({work.window.x / 2, work.window.y / 2}, ImGuiCond_Always, {.5f, .5f});

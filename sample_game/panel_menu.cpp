@@ -94,6 +94,18 @@ std::string fitted(const Hint& hint, float room) {
     }
 }
 
+// A red dot, so far from the bar's right end.
+void recordingSign(float end) {
+    constexpr const char* kSign = "REC";
+    const float gap = ImGui::GetFontSize(), wide = ImGui::CalcTextSize(kSign).x + 2 * gap;
+    ImGui::SetCursorPosX(ImGui::GetWindowWidth() - end - wide);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddCircleFilled({at.x + gap / 2, at.y + ImGui::GetFrameHeight() / 2}, gap * .35f,
+                                                ImColor(kBad));
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + gap);
+    ImGui::TextColored(kBad, "%s", kSign);
+}
+
 }  // namespace
 
 void showMenu(Workspace& work, Session& session) {
@@ -119,9 +131,14 @@ void showMenu(Workspace& work, Session& session) {
             if (!layer.empty() && ImGui::MenuItem(("Layer: " + layer).c_str(), "V", seen == ESP_VIEW_LAYER))
                 work.showLayer(seen != ESP_VIEW_LAYER);
             ImGui::Separator();
-            if (ImGui::MenuItem("Show all", "Home")) work.frameAll();
-            if (ImGui::MenuItem("Show what is chosen", "Numpad .")) work.frameChosen();
-            if (ImGui::MenuItem("Start view", "Numpad 0")) work.lookFromStart();
+            const auto camera = [&](const char* label, const char* key, void (Workspace::*moves)()) {
+                if (!ImGui::MenuItem(label, key)) return;
+                (work.*moves)();
+                work.looked = true;
+            };
+            camera("Show all", "Home", &Workspace::frameAll);
+            camera("Show what is chosen", "Numpad .", &Workspace::frameChosen);
+            camera("Start view", "Numpad 0", &Workspace::lookFromStart);
             ImGui::Separator();
             ImGui::MenuItem("Panel", "F2", &work.layout.panel);
             ImGui::MenuItem("Statistics", "F3", &work.layout.figures);
@@ -146,17 +163,9 @@ void showMenu(Workspace& work, Session& session) {
         }
         std::string name = session.name(work);
         if (session.modified(work)) name += " *";
-        const char* recording = session.recording() ? "REC" : "";
-        const float gap = ImGui::GetFontSize(), dot = *recording ? ImGui::CalcTextSize(recording).x + 2 * gap : 0;
-        ImGui::SetCursorPosX(ImGui::GetWindowWidth() - ImGui::CalcTextSize(name.c_str()).x - dot - 12 * work.scale);
-        if (*recording) {
-            const ImVec2 at = ImGui::GetCursorScreenPos();
-            const float middle = at.y + ImGui::GetFrameHeight() / 2;
-            ImGui::GetWindowDrawList()->AddCircleFilled({at.x + gap / 2, middle}, gap * .35f, ImColor(kBad));
-            ImGui::SetCursorPosX(ImGui::GetCursorPosX() + gap);
-            ImGui::TextColored(kBad, "%s", recording);
-            ImGui::SetCursorPosX(ImGui::GetWindowWidth() - ImGui::CalcTextSize(name.c_str()).x - 12 * work.scale);
-        }
+        const float wide = ImGui::CalcTextSize(name.c_str()).x + 12 * work.scale;
+        if (session.recording()) recordingSign(wide);
+        ImGui::SetCursorPosX(ImGui::GetWindowWidth() - wide);
         ImGui::TextDisabled("%s", name.c_str());
         ImGui::EndMainMenuBar();
     }

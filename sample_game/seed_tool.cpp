@@ -212,9 +212,9 @@ void SeedTool::grab(Workspace& work, glm::vec2 at, bool turns) {
 void SeedTool::followMouse(Workspace& work, glm::vec2 at, bool turns) {
     from_ = last_ = at;
     grip_ = {};
-    for (const Seed& seed : work.scene().seeds)
-        if (work.selected.count(seed.key) && chosenCount(work) == 1)
-            grip_ = work.place(vec(seed.position)).value_or(at) - at;
+    if (chosenCount(work) == 1)
+        for (uint32_t key : work.selected)
+            if (const Seed* seed = work.document->seed(key)) grip_ = work.place(vec(seed->position)).value_or(at) - at;
     moved_ = byKey_ = true;
     changed_ = false;
     gesture_ = work.newGesture();

@@ -60,7 +60,8 @@ struct Workspace {
     std::unique_ptr<EspContext, void (*)(EspContext*)> context{nullptr, espDestroy};
     std::unique_ptr<espalier::document::Document> document;
     ViewCamera camera;
-    EspCamera start{};  // where one begins to look at what is open
+    EspCamera start{};    // where one begins to look at what is open
+    bool looked = false;  // a menu has moved the camera: who tells of its moves hasn't heard of it
 
     // How the window is: size in ImGui's units, scale of the display, what the panel takes at the left (of the width).
     glm::vec2 window{1280, 720};

@@ -64,7 +64,7 @@ void measureTerminalErrors(TerminalData& data) {
         for (size_t l = 1; l < variant.lods.size(); ++l) {
             TerminalLod& lod = variant.lods[l];
             if (lod.pixels > 0) {
-                lod.error = 1 / lod.pixels;
+                lod.error = std::min(1 / lod.pixels, 1e30f);
                 continue;
             }
             const LodDistance toLod(data, lod);

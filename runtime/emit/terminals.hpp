@@ -15,7 +15,7 @@ struct TerminalLod {
     uint32_t firstVertex = 0, vertexCount = 0;
     uint32_t firstIndex = 0, indexCount = 0;  // indices count from firstVertex
     float error = 0;                          // as VariantRecord::error
-    float pixels = 0;  // what has so many across, or fewer, is drawn so, whatever the error is; 0: its error decides
+    float pixels = 0;  // where its longer side has so many, or fewer, it is good enough; 0: its error decides
     uint32_t material = 0;
 };
 struct TerminalVariant {

@@ -6,7 +6,7 @@
 const float kFadeEnd = 1.7;
 const float kReliefEnd = 2.6;   // from here on cells are lit as their meshes are; below ever more as the pattern is
 
-const float kApartClarity = 2.2;
+const float kApartClarity = 2.2;   // what stands apart is drawn until it is so many times smaller than a pattern's cells
 
 // Along an axis without neighbours a cell is as long as its mesh: caps stand on a segment, whose step is 0 across.
 vec2 cellSides(RoofGrid g) {

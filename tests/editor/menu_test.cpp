@@ -114,6 +114,19 @@ TEST_CASE("the panel that was drawn wide is as wide as at first once windows are
     }
 }
 
+TEST_CASE("a menu leads back to the start view, and who tells of the camera's moves hears of it") {
+    const Folder folder;
+    Framed editor(folder, smallScene(folder));
+    const glm::vec3 start = editor.work.camera.eye();
+    editor.work.frameAll();
+    REQUIRE(glm::distance(editor.work.camera.eye(), start) > .1f);
+    CHECK(!editor.work.looked);
+    editor.tap(editor.find(widget("##MainMenuBar", {"##menubar", "View", ""}), {0, 8}, {400, 12}));
+    editor.tap(editor.find(widget("##Menu_00", {"Start view", ""}), {0, 20}, {600, 500}));
+    CHECK(glm::distance(editor.work.camera.eye(), start) < 1e-4f);
+    CHECK(editor.work.looked);
+}
+
 TEST_CASE("tools' buttons take two rows where the panel is narrow, and their words are whole") {
     const Folder folder;
     Framed editor(folder, content("village.json"));
