@@ -7,6 +7,7 @@
 
 #include "runtime/core/check.hpp"
 #include "runtime/emit/roof_triangles.hpp"
+#include "runtime/render/roof_profile.hpp"
 
 namespace espalier {
 namespace {
@@ -27,18 +28,13 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
     for (TerminalVariant& v : meshes.variants)
         for (TerminalLod& lod : v.lods)
             if (lod.pixels == 0) lod.error *= kErrorScale;
+    const std::vector<RoofProfile> profiles = roofProfiles(meshes);
+    Result<Buffer> uploaded = makeBuffer(device, "roof profiles", std::as_bytes(std::span(profiles)));
+    if (!uploaded) return uploaded.failure();
+    out->profiles_ = std::move(*uploaded);
     Result<Terminals> terminals = Terminals::create(device, std::move(meshes));
     if (!terminals) return terminals.failure();
     out->terminals_ = std::move(*terminals);
-    const TerminalTable& table = out->terminals_.table();
-    out->flatShades_.assign(table.buckets.size(), kShadeOfTiles);
-    for (size_t kind = 0; kind < out->bounds_.size(); ++kind) {
-        if (out->bounds_[kind].high.z >= 0) continue;
-        const KindRecord& record = table.kinds[kind];
-        for (uint32_t v = record.firstVariant; v < record.firstVariant + record.variantCount; ++v)
-            std::fill_n(out->flatShades_.begin() + table.variants[v].firstBucket, table.variants[v].lodCount,
-                        kShadeOfBattens);
-    }
     if (Status s = out->makePrograms(device, color, depth, samples); !s) return s.failure();
     const struct {
         Buffer& buffer;
@@ -149,6 +145,7 @@ Status RoofDraw::cull(Commands& commands, const RoofView& roofs, const EmitView&
     env.tiles = addressOf<RoofTileBuf>(tiles_);
     env.cuts = addressOf<RoofCutTileBuf>(cuts_);
     env.rectangles = addressOf<RoofTileBuf>(rectangles_);
+    env.profiles = addressOf<RoofProfileBuf>(profiles_);
     env.gridCount = roofs.gridCount;
     env.rowRoom = uint32_t(rows_.size() / sizeof(RoofRow));
     env.tileRoom = uint32_t(tiles_.size() / sizeof(RoofTile));
@@ -208,7 +205,6 @@ void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap,
         push.firstVertex = bucket.firstVertex;
         push.vertexCount = bucket.vertexCount;
         push.batch = bucket.batch;
-        push.flatShade = flatShades_[b];
         push.roughness = terminals_.data().materials[bucket.material].roughness;
         for (uint32_t cut : {0u, 1u}) {
             const uint64_t offset =

@@ -57,10 +57,18 @@ BUFFER(RoofTileBuf, RoofTile)
 BUFFER(RoofCutTileBuf, RoofCutTile)
 BUFFER(RoofDrawStateBuf, RoofDrawState)
 
-// Means of meshes' shades: of coverings, and of what lies below them with the dark of the loft between.
-CONST_FLOAT(kShadeOfTiles, 0.9f);
-CONST_FLOAT(kShadeOfBattens, 0.22f);
+// What lies open of a covering at a place across its cells.
+CONST_UINT(kProfileSteps, 16u);
+struct RoofProfile {
+    float slope;       // metres (of what Shape's thickness stretches, that) a cell
+    float shade;
+    float steepness;   // mean of the slope's size, likewise of all steps
+    float meanShade;
+};
+STATIC_SIZE(RoofProfile, 16);
+BUFFER(RoofProfileBuf, RoofProfile)
 
+CONST_FLOAT(kDarkOfEdges, 0.35f);       // of cells' lower edges, where these are too small to be lit as they stand
 CONST_FLOAT(kRoughnessOfGlass, 0.2f);   // what is less rough mirrors
 
 CONST_UINT(kRoofShadow, 1u);   // far rectangles only, as coarse as shadows are
@@ -73,13 +81,14 @@ struct RoofDrawEnv {
     RoofTileBuf tiles;
     RoofCutTileBuf cuts;
     RoofTileBuf rectangles;       // grid, part
+    RoofProfileBuf profiles;      // [kind * kProfileSteps + step]
     uint gridCount;
     uint rowRoom, tileRoom, cutRoom, rectangleRoom;
     float leastCell;              // pixels below which cells are a pattern
     uint flags;
     uint shownLayer;              // for the view of a layer: the grammar's number, or colourLayers; kNoIndex: none
 };
-STATIC_SIZE(RoofDrawEnv, 288);
+STATIC_SIZE(RoofDrawEnv, 296);
 BUFFER(RoofDrawEnvBuf, RoofDrawEnv)
 
 struct RoofCullPush {
@@ -92,7 +101,6 @@ struct RoofDrawPush {
     TerminalVertexBuf vertices;
     uint bucket, firstVertex, vertexCount, batch;
     float roughness;
-    float flatShade;     // mean of the mesh's shades, for cells too small to show them
 };
 STATIC_SIZE(RoofDrawPush, 40);
 

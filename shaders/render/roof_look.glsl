@@ -77,14 +77,18 @@ vec3 mirrored(vec3 n, vec3 position) {
     return seen * (0.18 + 0.82 * (c * c) * (c * c) * c);
 }
 const float kClear = 150.0, kHazy = 400.0;   // metres
+// What of the sun's and the sky's light a surface gets.
+struct RoofLight {
+    float facing;
+    vec3 sky;
+};
+RoofLight lightOn(vec3 n) { return RoofLight(max(dot(n, frame.sunDirection), 0.0), skyLight(n)); }
 // from: what is mirrored besides.
-vec4 shade(vec3 base, vec3 n, vec3 position, float roughness, vec3 from) {
+vec4 shade(vec3 base, vec3 n, RoofLight light, vec3 position, float roughness, vec3 from) {
     vec3 eye = normalize(frame.eye - position);
-    vec3 sun = frame.sunDirection;
-    float facing = max(dot(n, sun), 0.0);
-    float visible = facingSunVisibility(facing, position, n);
-    vec3 direct = frame.sunColor * visible * facing * (base + gloss(n, eye, sun, max(roughness, 0.35)));
-    vec3 ambient = base * skyLight(n) + from;
+    float visible = facingSunVisibility(light.facing, position, n);
+    vec3 direct = frame.sunColor * visible * light.facing * (base + gloss(n, eye, frame.sunDirection, max(roughness, 0.35)));
+    vec3 ambient = base * light.sky + from;
     // A village stands in clear air, houses far off in the haze of the ground there.
     float away = distance(frame.eye, position) / frame.unit;
     if (away > kClear && frame.groundLevel != kNoGround) {

@@ -11,6 +11,7 @@ layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 surface;      // in cells along x and y, 1: battens below tiles, tint
 layout(location = 3) flat out uvec4 look;   // colour, key, bond, RoofGrid::mesh
+layout(location = 4) flat out vec3 lean;    // of the normal at a slope of 1 of the profile
 out float gl_ClipDistance[8];
 
 void main() {
@@ -50,6 +51,7 @@ void main() {
     }
     position = gridPoint(g, at);
     surface = vec4(at.xy / max(g.step, vec2(1e-3)), mesh.high.z < 0.0 && cells.y > 1u ? 1.0 : 0.0, float(g.colour >> 24u) * (1.0 / 255.0));
+    lean = -g.axisX * (g.thickness / max(g.size.x, 1e-3));
     look = uvec4(g.colour & 0xFFFFFFu, uint(g.key), (g.mesh & kGridBond) != 0u ? 1u : 0u, g.mesh);
     gl_Position = frame.viewProjection * vec4(position, 1.0);
     uint count = item.cell >= kCapLow ? 0u : env.roofs.parts.v[item.cell].counts & 255u;

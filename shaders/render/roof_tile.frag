@@ -30,6 +30,6 @@ void main() {
     base = mossy(push.env.v[0], look.w, base, position, clamp(1.0 - surface.z, 0.0, 1.0));
     vec3 from = vec3(0.0);
     if (surface.w < 0.0) from = mirrored(n, position);
-    color = shade(base, n, position, push.roughness, from);
+    color = shade(base, n, lightOn(n), position, push.roughness, from);
     if (layerOver()) color = mix(color, otherView(push.env.v[0], shown, n, position), frame.layerOpacity);
 }

@@ -36,21 +36,24 @@ void main() {
     // Normals are the mesh's in metres: what is stretched leans away.
     n = normalize(vec3(n.xy / max(g.size, vec2(1e-4)), n.z / max(g.thickness, 1e-4)));
     normal = g.axisX * n.x + g.axisY * n.y + cross(g.axisX, g.axisY) * n.z;
-    // Cells are lit as their pattern is long before they give way to it: at a low sun the relief of some among others
-    // without would be a mosaic of streaks. Smaller pictures, of what moves, keep it for longer: near roofs would lose
-    // it when the camera sets off.
-    float clear = 1.0;
+    // Cells are lit as their pattern is long before they give way to it: at a low sun the edges of some among others
+    // without would be a mosaic of streaks. Smaller pictures, of what moves, keep them for longer: near roofs would lose
+    // them when the camera sets off.
+    float shadeHere = mesh.uv.x;
     if (g.firstRow != kNoIndex && !standApart(g)) {
         vec3 face = cross(g.axisX, g.axisY);
         vec3 ray = frame.eye - position;
         float far = max(length(ray), 0.05);
-        clear = smoothstep(1.0, quick ? kFadeEnd : kReliefEnd, cellClarity(env, g, frame.pixelScale / far, abs(dot(face, ray)) / far));
+        float clear = smoothstep(1.0, quick ? kFadeEnd : kReliefEnd, cellClarity(env, g, frame.pixelScale / far, abs(dot(face, ray)) / far));
         RoofMesh bounds = env.roofs.meshes.v[g.mesh & 255u];
-        if (overRidge(g, bounds)) face = capNormal(g, bounds, n.y);
-        normal = mix(face, normal, clear);
+        bool open = n.z > 0.1;   // else an edge
+        vec3 flatter = open ? normalize(g.axisX * n.x + face * n.z) : face;
+        if (overRidge(g, bounds)) flatter = capNormal(g, bounds, n.y);
+        normal = mix(flatter, normal, clear);
+        if (!open) shadeHere = mix(1.0 - kDarkOfEdges, shadeHere, clear);
     }
     float tint = push.roughness < kRoughnessOfGlass ? -1.0 : float(g.colour >> 24u) * (1.0 / 255.0);
-    surface = vec4(at.xy, mix(push.flatShade, mesh.uv.x, clear), tint);
+    surface = vec4(at.xy, shadeHere, tint);
     look = uvec4(g.colour & 0xFFFFFFu, cellHash(g, column, row), push.bucket, g.mesh);
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 #ifdef ESPALIER_CUT

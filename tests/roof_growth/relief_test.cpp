@@ -11,17 +11,34 @@ using namespace roof_test;
 
 namespace {
 
-// A quad over its cell with normals that lean by `lean` radians, of a cell of kSlates.
+// A quad over its cell with normals that lean up the slope by `lean` radians, of a cell of kSlates.
 TerminalData leaning(float lean) {
     TerminalData data;
     data.kinds = {"slate", "ridge", "panel"};
     data.materials.resize(1);
-    const glm::vec3 normal = glm::normalize(glm::vec3(0.25f * std::sin(lean), 0, std::cos(lean)));
+    const glm::vec3 normal = glm::normalize(glm::vec3(0, 0.25f * std::sin(lean), std::cos(lean)));
     for (uint32_t i = 0; i < 4; ++i)
         data.vertices.push_back({{float(i & 1), float(i >> 1), 0}, packOct(normal), {1, 1}});
     data.indices = {0, 1, 3, 0, 3, 2};
     for (uint32_t kind = 0; kind < 3; ++kind)
         data.variants.push_back({data.kinds[kind], kind, {TerminalLod{0, 4, 0, 6, 0, 0}}});
+    return data;
+}
+
+// Ribs up the slope: either half of a cell leans away from its middle by `lean` radians.
+TerminalData ribbed(float lean) {
+    TerminalData data = leaning(0);
+    data.vertices.clear();
+    data.indices.clear();
+    for (const float side : {-1.f, 1.f}) {
+        const glm::vec3 normal = glm::normalize(glm::vec3(0.25f * side * std::sin(lean), 0, std::cos(lean)));
+        const uint32_t first = uint32_t(data.vertices.size());
+        for (uint32_t i = 0; i < 4; ++i)
+            data.vertices.push_back(
+                {{(side < 0 ? 0.f : 0.5f) + 0.5f * float(i & 1), float(i >> 1), 0}, packOct(normal), {1, 1}});
+        for (uint32_t i : {0u, 1u, 3u, 0u, 3u, 2u}) data.indices.push_back(first + i);
+    }
+    for (TerminalVariant& v : data.variants) v.lods = {TerminalLod{0, 8, 0, 12, 0, 0}};
     return data;
 }
 
@@ -107,9 +124,9 @@ struct Above {
     Roofs slated = roofs({footprint({{0, 0}, {20, 0}, {20, 12}, {0, 12}}, RoofShape::hip, 0.1)}, kSlates);
     std::unique_ptr<RoofGrowth> growth;
 
-    Above(Device& on, float lean) : device(on) {
+    Above(Device& on, const TerminalData& meshes) : device(on) {
         renderer = std::move(*Renderer::create(device, test::simpleTerminals()));
-        bounds = std::move(*renderer->loadRoofMeshes(leaning(lean)));
+        bounds = std::move(*renderer->loadRoofMeshes(meshes));
         growth = std::move(*RoofGrowth::create(device));
         RoofInputs inputs = slated.inputs();
         inputs.meshes = bounds;
@@ -129,7 +146,7 @@ struct Above {
         inputs.look.exposure = -3;
         inputs.look.quick = quick;
         const std::vector<uint8_t> rgba = picture(device, *renderer, inputs, pixels);
-        CHECK(renderer->stats().roofs.tiles > 50);
+        CHECK(renderer->stats().roofs.tiles + 1000 * renderer->stats().roofs.rectangles > 50);
         double sum = 0;
         for (size_t i = 0; i < rgba.size(); i += 4) sum += double(rgba[i]) + rgba[i + 1] + rgba[i + 2];
         return sum / (3.0 * pixels * pixels);
@@ -159,7 +176,7 @@ TEST_CASE("near roofs keep their tiles' relief in the smaller pictures of what m
     Result<std::unique_ptr<Device>> device = Device::create(options);
     REQUIRE(device);
     {
-        Above relief(**device, 1.0f), flat(**device, 0.0f);
+        Above relief(**device, leaning(1)), flat(**device, leaning(0));
         // A slate is 17 pixels high in the settled picture, and half of that in the moving one.
         const double settled = relief.light(240, 3.9f, false), unlit = flat.light(240, 3.9f, false);
         REQUIRE(settled < 0.9 * unlit);
@@ -170,6 +187,25 @@ TEST_CASE("near roofs keep their tiles' relief in the smaller pictures of what m
             MESSAGE("settled " << settled << ", moving " << moving << ", far " << far << ", without relief " << unlit);
             CHECK(std::abs(moving - settled) < 0.2 * (unlit - settled));
         }
+    }
+    CHECK((*device)->validationMessages() == 0);
+}
+
+TEST_CASE("far roofs are as dark as the ribs of their tiles are near by") {
+    DeviceOptions options;
+    options.validation = true;
+    Result<std::unique_ptr<Device>> device = Device::create(options);
+    REQUIRE(device);
+    {
+        Above ribs(**device, ribbed(1.2f)), flat(**device, leaning(0));
+        const double near = ribs.light(240, 2, false), unlit = flat.light(240, 2, false);
+        REQUIRE(near < 0.8 * unlit);
+        CHECK(ribs.light(240, 5, false) == doctest::Approx(near).epsilon(0.06));
+        for (const uint32_t pixels : {240u, 160u, 110u, 70u}) {
+            CAPTURE(pixels);
+            CHECK(ribs.light(pixels, 9, false) == doctest::Approx(near).epsilon(0.06));
+        }
+        CHECK(ribs.renderer->stats().roofs.tiles == 0);
     }
     CHECK((*device)->validationMessages() == 0);
 }
