@@ -52,6 +52,7 @@ Result<Props> Props::create(Device& device, TerminalData models, VkFormat color,
 }
 
 void Props::measure() {
+    tops_.resize(terminals_.table().buckets.size());
     for (const TerminalVariant& variant : variants()) {
         Room& room = rooms_.emplace_back();
         for (const TerminalLod& lod : variant.lods)
@@ -61,6 +62,8 @@ void Props::measure() {
                 room.foot = std::min(room.foot, at.y);
                 room.top = std::max(room.top, at.y);
             }
+        const VariantRecord& record = terminals_.table().variants[rooms_.size() - 1];
+        std::fill_n(tops_.begin() + record.firstBucket, record.lodCount, room.top);
     }
 }
 
@@ -229,7 +232,8 @@ Status Props::upload(Commands& commands, std::vector<Level>& levels, Chosen& out
 
 PropPush Props::pushOf(uint32_t bucket, uint32_t first) const {
     const TerminalMaterial& material = terminals_.data().materials[terminals_.table().buckets[bucket].material];
-    return {material.baseColor, first, material.name == "grass" ? 1u : 0u, material.roughness, material.alphaCutoff};
+    return {material.baseColor, first, material.name == "grass" ? 1u : 0u, material.roughness, material.alphaCutoff,
+            tops_[bucket]};
 }
 
 void Props::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Binding* shadow,

@@ -78,6 +78,7 @@ class Props {
     Terminals terminals_;
     Sampler sampler_, quickSampler_;
     std::vector<Room> rooms_;  // [variant]
+    std::vector<float> tops_;  // [bucket]: Room::top
     std::vector<PropPlace> places_;
     std::vector<PropInstance> instances_;  // [place], whole
     Program built_[kShadings], foliage_[kShadings];

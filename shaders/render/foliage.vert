@@ -42,9 +42,11 @@ void main() {
     shown = v.code < 0.0 ? 1.0 : smoothstep(0.06, 0.42, abs(dot(turned(v, cardNormal(v.code)), eye)));
     float open = grass ? 0.72 + 0.28 * v.uv.x : v.open;
     float side = dot(v.normal, frame.sunDirection);
-    // Light gets some way into a crown.
-    float into = grass ? 0.0 : 0.9 * frame.unit;
-    float visible = mix(grass ? 0.0 : 0.22 + 0.30 * open, 1.0, sunVisibility(v.position + frame.sunDirection * into, v.normal));
+    // Light gets some way into a crown. What is low has little of a crown: its shade is that of other things.
+    float high = grass ? 0.0 : push.high * v.scale;
+    float into = min(0.9 * frame.unit, 0.5 * high);
+    float through = (0.22 + 0.30 * open) * min(0.5 * high / frame.unit, 1.0);
+    float visible = mix(through, 1.0, sunVisibility(v.position + frame.sunDirection * into, v.normal));
     // Leaves turn every way: what falls on a crown's far side comes through, the more the thinner it is.
     // How low the sun is, for what rises above its surroundings.
     float above = clamp((v.position.y - frame.groundLevel) * 0.6 / frame.unit - 0.2, 0.0, 1.0);

@@ -25,8 +25,9 @@ struct PropPush {
     uint grass;         // 1: it has the meadow's colour
     float roughness;
     float alphaCutoff;  // 0: opaque
+    float high;         // of the mesh above its foot
 };
-STATIC_SIZE(PropPush, 32);
+STATIC_SIZE(PropPush, 36);
 
 ESPALIER_END
 #endif

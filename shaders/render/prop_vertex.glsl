@@ -15,6 +15,7 @@ struct PropVertex {
     float code;   // of a card: where it faces; -1: none
     float tint, shade, fade;   // tint: 0 to 1; shade: a factor of its brightness
     vec2 turn;   // PropInstance::turn
+    float scale;
 };
 
 // From the model's space as the instance stands.
@@ -26,7 +27,8 @@ PropVertex propVertex(uint vertex, uint instance) {
     vec3 at = vec3(uintBitsToFloat(p), uintBitsToFloat(q.x)), n = octahedralToUnit(q.y);
     PropVertex v;
     v.turn = uintBitsToFloat(b.xy);
-    at *= uintBitsToFloat(a.w);
+    v.scale = uintBitsToFloat(a.w);
+    at *= v.scale;
     v.position = uintBitsToFloat(a.xyz) + turned(v, at);
     v.normal = turned(v, n);
     v.uv = uintBitsToFloat(texelFetch(meshes, int(3u * vertex + 2u)).xy);

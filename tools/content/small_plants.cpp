@@ -8,34 +8,43 @@
 namespace espalier::content {
 namespace {
 
-// A hedge, clipped: twigs lie on a box of 2 m by 1.25 m by 0.8 m.
+// A hedge, clipped: twigs lie on a box of 2 m by 1.25 m by 0.8 m. Between its sides others stand in the dark, across and
+// along, so that one doesn't see through it.
 Mesh makeHedge(int lod) {
     Mesh mesh;
-    const int along = lod == 0 ? 7 : lod == 1 ? 4 : 2;
+    const int along = lod == 0 ? 7 : lod == 1 ? 4 : 2, rows = lod == 0 ? 4 : lod == 1 ? 2 : 1;
     const float side = 2.9f / float(along), high = 1.2f, half = 0.34f;
-    const auto card = [&](glm::vec3 at, glm::vec3 out, uint32_t i) {
+    uint32_t i = 0;
+    const auto card = [&](glm::vec3 at, glm::vec3 out, float size, float inside) {
+        ++i;
         const auto random = [&](uint32_t which) { return random01(911u + uint32_t(lod), i, which); };
         const glm::vec3 turned = glm::normalize(out + 0.7f * (glm::vec3(random(0), random(1), random(2)) - 0.5f));
-        const Cell cell = cellOf(lod, 3, random(3));
         const auto litAt = [&](glm::vec3 p) -> Lit {
             return {glm::normalize(5.0f * glm::normalize(p - at + out) + turned),
-                    glm::clamp(0.35f + 0.5f * p.y / high, 0.2f, 1.0f)};
+                    inside * glm::clamp(0.35f + 0.5f * p.y / high, 0.2f, 1.0f)};
         };
         addCard(mesh, at + 0.08f * (glm::vec3(random(4), random(5), random(6)) - 0.5f), turned,
-                std::abs(out.y) > 0.5f ? glm::vec3(0.3f, 0, 1) : glm::vec3(0.2f * (random(7) - 0.5f), 1, 0), side, cell,
-                litAt);
+                std::abs(out.y) > 0.5f ? glm::vec3(0.3f, 0, 1) : glm::vec3(0.2f * (random(7) - 0.5f), 1, 0), size,
+                cellOf(lod, 3, random(3)), litAt);
     };
-    uint32_t i = 0;
-    const int rows = lod == 0 ? 4 : lod == 1 ? 2 : 1;
+    const auto atRow = [&](int r) { return high * (float(r) + 0.5f) / float(rows); };
     for (int a = 0; a < along; ++a) {
         const float x = -1 + 2 * (float(a) + 0.5f) / float(along);
         for (int r = 0; r < rows; ++r) {
-            const float y = high * (float(r) + 0.5f) / float(rows);
-            card({x, y, half}, {0, 0, 1}, ++i);
-            card({x, y, -half}, {0, 0, -1}, ++i);
+            card({x, atRow(r), half}, {0, 0, 1}, side, 1);
+            card({x, atRow(r), -half}, {0, 0, -1}, side, 1);
+            card({x, 0.94f * atRow(r), 0}, {0, 0, 1}, 1.35f * side, 0.4f);
         }
-        card({x, high, 0.14f}, {0, 1, 0.2f}, ++i);
-        card({x, high, -0.14f}, {0, 1, -0.2f}, ++i);
+        card({x, high, 0.14f}, {0, 1, 0.2f}, side, 1);
+        card({x, high, -0.14f}, {0, 1, -0.2f}, side, 1);
+    }
+    const int across = lod == 0 ? 4 : 2;
+    for (int a = 0; a <= across; ++a) {
+        const bool end = a == 0 || a == across;
+        const float x = -1 + 2 * float(a) / float(across);
+        for (int r = 0; r < rows; ++r)
+            for (float z : {-0.2f, 0.2f})
+                card({x, 0.96f * atRow(r), z}, {x < 0 ? -1 : 1, 0, 0}, std::max(1.1f * side, 0.4f), end ? 1 : 0.4f);
     }
     return mesh;
 }
