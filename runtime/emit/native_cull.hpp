@@ -11,9 +11,9 @@ namespace espalier {
 
 class NativeCull {
   public:
-    // Looks at bound growth (emit_bind.cpp) as kernels do with this push data, and keeps what is seen. Reads of `push`
-    // cells, bins, order, grid, leafBase; spans, leaves: [item], aligned to 16 bytes. On up to `threads` threads (0:
-    // all cores); returns when done. Returns how many items are seen.
+    // Looks at bound growth (bound_growth.hpp) as kernels do with this push data, and keeps what is seen. Reads of
+    // `push` cells, bins, order, grid, leafBase; spans, leaves: [item], aligned to 16 bytes. On up to `threads` threads
+    // (0: all cores); returns when done. Returns how many items are seen.
     uint32_t look(const EmitPush& push, const EmitView& view, const EmitTable& table, const SpanInstance* spans,
                   const LeafInstance* leaves, unsigned threads = 0);
     // Writes them to `drawn`, sorted by bucket, in the kernels' order, and sets all of `state` but blocks and groups.

@@ -232,8 +232,8 @@ Status Props::upload(Commands& commands, std::vector<Level>& levels, Chosen& out
 
 PropPush Props::pushOf(uint32_t bucket, uint32_t first) const {
     const TerminalMaterial& material = terminals_.data().materials[terminals_.table().buckets[bucket].material];
-    return {material.baseColor, first, material.name == "grass" ? 1u : 0u, material.roughness, material.alphaCutoff,
-            tops_[bucket]};
+    return {material.baseColor,   first,        material.name == "grass" ? 1u : 0u, material.roughness,
+            material.alphaCutoff, tops_[bucket]};
 }
 
 void Props::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Binding* shadow,

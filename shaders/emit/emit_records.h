@@ -241,7 +241,7 @@ CONST_UINT(kFresh, 0x80000000u);
 CONST_UINT(kFlagSpan, 1u);
 CONST_UINT(kFlagStretch, 2u);
 
-// Push data of the kernels that carry bound growth over to other buffers (emit_carry.cpp), where each node and leaf may
+// Push data of the kernels that carry bound growth over to other buffers (bound_growth_carry.cpp), where each node and leaf may
 // have another number.
 struct CarryPush {
     UintBuf nodesWent, leavesWent;       // as GrowthMove

@@ -2,7 +2,7 @@
 // that has never seen the growth before.
 #include <doctest/doctest.h>
 
-#include "runtime/emit/instance_room.hpp"
+#include "runtime/emit/emit_memory.hpp"
 #include "tests/emit/edited.hpp"
 #include "tests/emit/pipeline.hpp"
 

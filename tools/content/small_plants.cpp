@@ -8,8 +8,8 @@
 namespace espalier::content {
 namespace {
 
-// A hedge, clipped: twigs lie on a box of 2 m by 1.25 m by 0.8 m. Between its sides others stand in the dark, across and
-// along, so that one doesn't see through it.
+// A hedge, clipped: twigs lie on a box of 2 m by 1.25 m by 0.8 m. Between its sides others stand in the dark, across
+// and along, so that one doesn't see through it.
 Mesh makeHedge(int lod) {
     Mesh mesh;
     const int along = lod == 0 ? 7 : lod == 1 ? 4 : 2, rows = lod == 0 ? 4 : lod == 1 ? 2 : 1;

@@ -2,19 +2,20 @@
 // by the numbers that growth's records have now, in an order of items with new room. Native code moves it in place
 // on software devices; kernels copy it to other buffers, which have new room, too. Binding all anew would cost ten
 // times.
+#include "runtime/emit/bound_growth.hpp"
 #include "runtime/emit/cell_lanes.hpp"
-#include "runtime/emit/emit.hpp"
+#include "runtime/emit/emit_memory.hpp"
 #include "runtime/emit/native_carry.hpp"
 
 namespace espalier {
 
 // Whether cells that outgrow their room may soon find none.
-bool Emit::nearlyCrowded() const {
+bool BoundGrowth::nearlyCrowded(const EmitState& counted) const {
     const uint64_t room = held_.order.size() / 4;
-    return reinterpret_cast<const EmitState*>(readback_.mapped())->ordered > room - room / 8;
+    return counted.ordered > room - room / 8;
 }
 
-Status Emit::makeCarrying(bool moved) {
+Status BoundGrowth::makeCarrying(bool moved) {
     Carrying& c = carrying_[moved];
     if (c.cells) return Done{};
     const struct {
@@ -32,7 +33,7 @@ Status Emit::makeCarrying(bool moved) {
 }
 
 // all: instances too, and not the order alone.
-Status Emit::carryByKernels(Commands& commands, const CarryPush& push, bool all) {
+Status BoundGrowth::carryByKernels(Commands& commands, const CarryPush& push, bool all) {
     const bool moved = IS_GIVEN(push.nodesWent);
     if (Status s = makeCarrying(moved); !s) return s;
     Pass pass(commands, "bind");
@@ -49,11 +50,11 @@ Status Emit::carryByKernels(Commands& commands, const CarryPush& push, bool all)
     return Done{};
 }
 
-Status Emit::carry(Commands& commands, const EmitInputs& inputs, uint32_t leaves, Bound& bound) {
+Status BoundGrowth::carry(Commands& commands, const EmitInputs& inputs, uint32_t leaves, Source& source) {
     const GrowthView& growth = inputs.growth;
-    const bool moved = bound.number < growth.renewed;
+    const bool moved = source.number < growth.renewed;
     const bool fits = held_.fits(growth.nodeCount, leaves);
-    const bool native = fits && inputs.native && sharesMemory() && device_->finished(usedBy_);
+    const bool native = fits && inputs.native && sharesMemory(*device_, cells_) && device_->finished(usedBy_);
     const bool stays = fits && (!moved || native);
     Held other;
     if (!stays) {
@@ -80,8 +81,8 @@ Status Emit::carry(Commands& commands, const EmitInputs& inputs, uint32_t leaves
     push.leafNextTo = addressOf<UintBuf>(to.leafNext);
     push.spansTo = addressOf<SpanInstanceBuf>(to.spans);
     push.leavesTo = addressOf<LeafInstanceBuf>(to.leaves);
-    push.nodeCount = bound.nodeCount;
-    push.leafCount = bound.leafCount;
+    push.nodeCount = source.nodeCount;
+    push.leafCount = source.leafCount;
     push.leafBase = held_.leafBase;
     push.leafBaseTo = to.leafBase;
     if (native) {
@@ -96,11 +97,10 @@ Status Emit::carry(Commands& commands, const EmitInputs& inputs, uint32_t leaves
         other.order = std::move(held_.order);
         hold(std::move(other));
     }
-    reinterpret_cast<EmitState*>(readback_.mapped())->ordered = 0;  // until the next count comes back
     if (moved) {
-        bound.number = growth.renewed;
-        bound.nodeCount = growth.moved.nodesAfter;
-        bound.leafCount = growth.moved.leavesAfter;
+        source.number = growth.renewed;
+        source.nodeCount = growth.moved.nodesAfter;
+        source.leafCount = growth.moved.leavesAfter;
     }
     ++carries_;
     return Done{};

@@ -1,0 +1,265 @@
+// Enters: growth's records. Leaves: an instance in the world for each span and leaf, and the order of items by cells of
+// space, each cell's by their order of going when they are thinned out. Runs when growth has changed; after edits, on
+// what they concerned: nodes that were written and what hangs on them, and the cells where something was or is of that.
+#include "runtime/emit/bound_growth.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/emit/cell_lanes.hpp"
+#include "runtime/emit/emit_memory.hpp"
+#include "runtime/emit/native_bind.hpp"
+
+namespace espalier {
+namespace {
+
+// At most so many leaves; beyond, they are counted as overflow and left out. Nodes are limited by growth.
+constexpr uint32_t kMostLeaves = 6'000'000;
+
+// The cubes that fill the box, at most kMaxCells of them.
+EmitGrid gridOver(glm::vec3 low, glm::vec3 high) {
+    const glm::vec3 extent = glm::max(high - low, glm::vec3(1e-3f * std::max(1e-3f, glm::length(high - low))));
+    float cell = std::cbrt(extent.x * extent.y * extent.z / float(kMaxCells));
+    EmitGrid grid{};
+    for (uint64_t cells = kMaxCells + 1; cells > kMaxCells; cell *= 1.03f) {
+        cells = 1;
+        for (int axis = 0; axis < 3; ++axis) {
+            grid.size[axis] = uint32_t(std::clamp(std::ceil(extent[axis] / cell), 1.0f, float(kMaxCells)));
+            cells *= grid.size[axis];
+        }
+        grid.rcpCell = 1 / cell;
+    }
+    grid.low = low;
+    return grid;
+}
+
+}  // namespace
+
+Result<BoundGrowth> BoundGrowth::create(Device& device, const Terminals& terminals) {
+    BoundGrowth out;
+    out.device_ = &device;
+    out.terminals_ = &terminals;
+    const struct {
+        Program& program;
+        const char* shader;
+        std::vector<SpecConstant> constants;
+        bool exact = false;
+    } programs[] = {{out.spans_[0], "emit/bind_spans.comp", {{3, 1}}, true},
+                    {out.spans_[1], "emit/bind_spans.comp", {{3, 0}}, true},
+                    {out.leaves_[0], "emit/bind_leaves.comp", {{3, 1}}, true},
+                    {out.leaves_[1], "emit/bind_leaves.comp", {{3, 0}}, true},
+                    {out.touch_[0], "emit/bind_touch.comp", {{3, 1}}},
+                    {out.touch_[1], "emit/bind_touch.comp", {{3, 0}}},
+                    {out.stretches_, "emit/bind_stretches.comp", {}, true},
+                    {out.keep_, "emit/bind_keep.comp", {{5, cellLanes(device)}}},
+                    {out.count_, "emit/bind_count.comp", {}, true},
+                    {out.cellsOf_, "emit/bind_cells.comp", {}},
+                    {out.order_, "emit/bind_order.comp", {}},
+                    {out.sort_, "emit/bind_sort.comp", {{5, sortLanes(device)}}}};
+    for (const auto& p : programs) {
+        Result<Program> made = Program::compute(device, p.shader, {.exact = p.exact, .constants = p.constants});
+        if (!made) return made.failure();
+        p.program = std::move(*made);
+    }
+    Status made[] = {makeRoom(device, out.cells_, "emit cells", (kAllCells + 1) * sizeof(EmitCell)),
+                     makeRoom(device, out.bins_, "emit bins", kAllCells * kCellBins * 4ull),
+                     makeRoom(device, out.noTexels_, "emit no texels", 16)};
+    for (Status& s : made)
+        if (!s) return s.failure();
+    for (Buffer& given : out.given_)
+        if (Status s = makeRoom(device, given, "bind inputs", sizeof(BindInputs)); !s) return s.failure();
+    return out;
+}
+
+// Room for all that growth has room for, and for as much again on software devices.
+BoundGrowth::HeldRoom BoundGrowth::roomFor(const GrowthView& growth, uint32_t leaves) const {
+    const DeviceInfo& info = device_->info();
+    const uint64_t most = std::min<uint64_t>(info.maxBufferBytes, 16ull * info.limits.maxTexelBufferElements);
+    const auto room = [&](const Buffer* records, uint64_t recordBytes, uint32_t count, uint64_t instanceBytes) {
+        const uint64_t there = std::max<uint64_t>(records ? records->size() / recordBytes : 0, count);
+        return instanceRoom(there, instanceBytes, most, sharesMemory(*device_, cells_));
+    };
+    return {room(growth.nodeBuffer, sizeof(Node), growth.nodeCount, sizeof(SpanInstance)),
+            std::min<uint64_t>(room(growth.leafBuffer, sizeof(Leaf), leaves, sizeof(LeafInstance)), kMostLeaves)};
+}
+
+Result<BoundGrowth::Held> BoundGrowth::makeHeld(const GrowthView& growth, uint32_t leaves) {
+    Held held;
+    const auto make = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
+        return makeRoom(*device_, buffer, name, std::max<uint64_t>(bytes, 65536) / 16 * 16, texels);
+    };
+    const auto [spans, loose] = roomFor(growth, leaves);
+    Status instances[] = {make(held.spans, "span instances", spans * sizeof(SpanInstance), &held.spanTexels),
+                          make(held.leaves, "leaf instances", loose * sizeof(LeafInstance), &held.leafTexels)};
+    for (Status& s : instances)
+        if (!s) return s.failure();
+    held.leafBase = uint32_t(held.spans.size() / sizeof(SpanInstance));
+    Status rest[] = {make(held.keys, "emit keys", held.numbers() * 4),
+                     make(held.leafHeads, "emit leaf heads", held.leafBase * 4ull),
+                     make(held.leafNext, "emit next leaves", held.leaves.size() / sizeof(LeafInstance) * 4)};
+    for (Status& s : rest)
+        if (!s) return s.failure();
+    return held;
+}
+
+// For the items of `held`, with room for cells that outgrow theirs.
+Status BoundGrowth::makeOrder(Buffer& order, const Held& held) {
+    const uint64_t bytes = (held.numbers() + held.numbers() / 2 + 32 * kAllCells) * 4;
+    if (order && order.size() >= bytes) return Done{};
+    Result<Buffer> made = Buffer::create(*device_, "emit order", bytes);
+    if (!made) return made.failure();
+    order = std::move(*made);
+    return Done{};
+}
+
+bool BoundGrowth::trim(const GrowthView& growth) {
+    constexpr uint64_t kFarMore = 3;
+    spareOrder_ = {};
+    for (TexelView* view : {&nodeRecords_, &chunkRecords_, &leafRecords_, &touchedRecords_}) *view = {};
+    const HeldRoom room = roomFor(growth, std::min(growth.leafCount, kMostLeaves));
+    if (held_.numbers() / kFarMore <= room.spans + room.leaves) return false;
+    forget();
+    hold({});
+    noteTexels_ = {};  // no view outlives its buffer
+    for (Buffer* buffer : {&flags_, &list_, &notes_}) *buffer = {};
+    return true;
+}
+
+void BoundGrowth::forget() {
+    source_ = {};
+    ++version_;
+}
+
+void BoundGrowth::hold(Held held) {
+    held_.spanTexels = {};  // no view outlives its buffer
+    held_.leafTexels = {};
+    held_ = std::move(held);
+}
+
+// Room for what kernels leave to each other, as much as held_ has.
+Status BoundGrowth::reserve() {
+    const uint64_t numbers = held_.numbers();
+    const auto hold = [&](Buffer& buffer, const char* name, uint64_t bytes, TexelView* texels = nullptr) -> Status {
+        if (buffer && buffer.size() >= bytes) return Done{};
+        return makeRoom(*device_, buffer, name, (bytes + 15) / 16 * 16, texels);
+    };
+    const uint64_t blocks = numbers / kBlockItems + 2;
+    Status rest[] = {hold(flags_, "emit flags", held_.leafBase * 4ull),
+                     hold(list_, "emit list", (numbers + kBlockItems) * 4),
+                     hold(notes_, "emit notes", blocks * kBlockItems * sizeof(DrawnItem), &noteTexels_)};
+    for (Status& s : rest)
+        if (!s) return s;
+    return Done{};
+}
+
+void BoundGrowth::tell(EmitPush& push) const {
+    push.cells = addressOf<EmitCellBuf>(cells_);
+    push.bins = addressOf<UintBuf>(bins_);
+    push.order = addressOf<UintBuf>(held_.order);
+    push.list = addressOf<UintBuf>(list_);
+    push.notes = addressOf<DrawnBuf>(notes_);
+    push.grid = grid_;
+    push.leafBase = held_.leafBase;
+}
+
+// Whether it is known that cells had no room for some of what is bound.
+bool BoundGrowth::crowded(const EmitState& counted) const {
+    return counted.crowded != 0 && counted.crowded == uint32_t(wholeBindings_);
+}
+
+// Whether what is bound is what regrowths, or the gaps' closing before them, began with.
+bool BoundGrowth::staysBound(const Source& wanted, const GrowthView& growth) const {
+    const Source& s = source_;
+    const GrowthMove& moved = growth.moved;
+    const bool added = growth.renewed <= s.number && s.number <= growth.number && s.nodeCount <= wanted.nodeCount &&
+                       s.leafCount <= wanted.leafCount;
+    const bool movedThen = moved.nodes && s.number + 1 == growth.renewed && s.nodeCount == moved.nodesBefore &&
+                           s.leafCount == moved.leavesBefore;
+    return s.nodes != 0 && s.surfaces == wanted.surfaces && s.surfacesRevision == wanted.surfacesRevision &&
+           s.low == wanted.low && s.high == wanted.high && growth.touched != nullptr && (added || movedThen);
+}
+
+Status BoundGrowth::bind(Commands& commands, const EmitInputs& inputs, const TileWatch& watch, EmitState& counted) {
+    const GrowthView& growth = inputs.growth;
+    const uint32_t nodes = growth.nodeCount, leaves = std::min(growth.leafCount, kMostLeaves);
+    const Source wanted{uint64_t(growth.nodes.v),
+                        uint64_t(growth.leaves.v),
+                        uint64_t(inputs.surfaces.v),
+                        inputs.surfacesRevision,
+                        growth.revision,
+                        nodes,
+                        leaves,
+                        growth.number,
+                        inputs.low,
+                        inputs.high};
+    if (wanted == source_ && !crowded(counted)) return Done{};
+    const bool partly = staysBound(wanted, growth) && !crowded(counted);
+    Source before = source_;
+    forget();
+    if (!partly) {
+        ++wholeBindings_;
+        if (!held_.fits(nodes, leaves)) {
+            Result<Held> made = makeHeld(growth, leaves);
+            if (!made) return made.failure();
+            if (Status s = makeOrder(made->order, *made); !s) return s;
+            hold(std::move(*made));
+        }
+    } else if (before.number < growth.renewed || !held_.fits(nodes, leaves) || nearlyCrowded(counted)) {
+        if (Status s = carry(commands, inputs, leaves, before); !s) return s;
+        counted.ordered = 0;  // until the next count comes back
+    }
+    if (Status s = reserve(); !s) return s;
+    grid_ = gridOver(inputs.low, inputs.high);
+    overflow_ = growth.leafCount - leaves;
+
+    BindInputs given = bindInputs(inputs, wanted);
+    if (partly) {
+        given.touched = addressOf<UintBuf>(*growth.touched);
+        given.partly = 1;
+        given.watched = watch.watched().width > 0 ? 1 : 0;
+        given.nodesBefore = before.nodeCount;
+        given.leavesBefore = before.leafCount;
+    }
+    given.since = before.number;
+    // What stands then may be culled by native code at once.
+    const bool native = inputs.native && sharesMemory(*device_, cells_) && device_->finished(usedBy_);
+    if (native) {
+        bindNative(given, terminals_->kernelTable(), watch.watched());
+    } else if (Status s = bindByKernels(commands, growth, watch, given); !s) {
+        return s;
+    }
+    source_ = wanted;
+    boundBy_ = native ? 0 : commands.serial();
+    usedBy_ = commands.serial();
+    return Done{};
+}
+
+// But for what an edit has.
+BindInputs BoundGrowth::bindInputs(const EmitInputs& inputs, const Source& wanted) const {
+    BindInputs given{};
+    given.nodes = inputs.growth.nodes;
+    given.chunks = inputs.growth.chunks;
+    given.leaves = inputs.growth.leaves;
+    given.surfaces = inputs.surfaces;
+    given.spans = addressOf<SpanInstanceBuf>(held_.spans);
+    given.leafInstances = addressOf<LeafInstanceBuf>(held_.leaves);
+    given.cells = addressOf<EmitCellBuf>(cells_);
+    given.bins = addressOf<UintBuf>(bins_);
+    given.keys = addressOf<UintBuf>(held_.keys);
+    given.order = addressOf<UintBuf>(held_.order);
+    given.flags = addressOf<UintBuf>(flags_);
+    given.list = addressOf<UintBuf>(list_);
+    given.leafHeads = addressOf<UintBuf>(held_.leafHeads);
+    given.leafNext = addressOf<UintBuf>(held_.leafNext);
+    given.work = addressOf<UintBuf>(notes_);  // which a view writes only when all is bound
+    given.leafWork = wanted.nodeCount;
+    given.grid = grid_;
+    given.nodeCount = wanted.nodeCount;
+    given.leafCount = wanted.leafCount;
+    given.leafBase = held_.leafBase;
+    given.orderRoom = uint32_t(held_.order.size() / 4);
+    given.binding = uint32_t(wholeBindings_);
+    return given;
+}
+
+}  // namespace espalier

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "runtime/expand/growth.hpp"
+#include "shaders/emit/emit_records.h"
+
+namespace espalier {
+
+// What is emitted: growth, and where it stands.
+struct EmitInputs {
+    GrowthView growth;
+    SurfaceBuf surfaces{};          // indexed by surface instance
+    uint64_t surfacesRevision = 0;  // another one when a surface stands elsewhere
+    // Where things grow, more or less: space is divided there. What lies elsewhere costs more, no more than that.
+    glm::vec3 low{-4}, high{4};
+    // True: on a software device whose addresses are the process's own, native code binds growth if no recording that
+    // looks at what was bound is in flight (native_bind.hpp), culls what stands already when a view is recorded
+    // (native_cull.hpp), gathers what is to be written as triangles, and writes bark's (native_triangles.hpp). False:
+    // shaders do there too.
+    bool native = true;
+};
+
+}  // namespace espalier

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+
+#include "runtime/gpu/buffer.hpp"
+
+namespace espalier {
+
+// How many instances of `instanceBytes` each bound growth gets room for that has `count` of them. spare: for twice as
+// many, where memory that isn't touched costs nothing, since what outgrows its room is copied whole; but no more than
+// a buffer of `mostBytes` holds, unless there are more already.
+constexpr uint64_t instanceRoom(uint64_t count, uint64_t instanceBytes, uint64_t mostBytes, bool spare) {
+    return spare ? std::max(count, std::min(2 * count, mostBytes / instanceBytes)) : count;
+}
+
+// Native code reads and writes what kernels do. buffer: any of the device's own.
+inline bool sharesMemory(const Device& device, const Buffer& buffer) {
+    return device.info().cpu && uintptr_t(buffer.mapped()) == buffer.address();
+}
+
+// A new buffer in place of what was there. texels: null, or the view of four words a texel that goes with it.
+inline Status makeRoom(Device& device, Buffer& buffer, std::string_view name, uint64_t bytes,
+                       TexelView* texels = nullptr) {
+    if (texels) return makeTexels(device, name, bytes, VK_FORMAT_R32G32B32A32_UINT, buffer, *texels);
+    Result<Buffer> made = Buffer::create(device, name, bytes);
+    if (!made) return made.failure();
+    buffer = std::move(*made);
+    return Done{};
+}
+
+}  // namespace espalier
