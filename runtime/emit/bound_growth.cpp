@@ -39,28 +39,24 @@ Result<BoundGrowth> BoundGrowth::create(Device& device, const Terminals& termina
     BoundGrowth out;
     out.device_ = &device;
     out.terminals_ = &terminals;
-    const struct {
-        Program& program;
-        const char* shader;
-        std::vector<SpecConstant> constants;
-        bool exact = false;
-    } programs[] = {{out.spans_[0], "emit/bind_spans.comp", {{3, 1}}, true},
-                    {out.spans_[1], "emit/bind_spans.comp", {{3, 0}}, true},
-                    {out.leaves_[0], "emit/bind_leaves.comp", {{3, 1}}, true},
-                    {out.leaves_[1], "emit/bind_leaves.comp", {{3, 0}}, true},
-                    {out.touch_[0], "emit/bind_touch.comp", {{3, 1}}},
-                    {out.touch_[1], "emit/bind_touch.comp", {{3, 0}}},
-                    {out.stretches_, "emit/bind_stretches.comp", {}, true},
-                    {out.keep_, "emit/bind_keep.comp", {{5, cellLanes(device)}}},
-                    {out.count_, "emit/bind_count.comp", {}, true},
-                    {out.cellsOf_, "emit/bind_cells.comp", {}},
-                    {out.order_, "emit/bind_order.comp", {}},
-                    {out.sort_, "emit/bind_sort.comp", {{5, sortLanes(device)}}}};
-    for (const auto& p : programs) {
-        Result<Program> made = Program::compute(device, p.shader, {.exact = p.exact, .constants = p.constants});
-        if (!made) return made.failure();
-        p.program = std::move(*made);
-    }
+    const ProgramOptions exact{.exact = true, .constants = {}};
+    const auto fetching = [](bool fetches, bool bitwise) {
+        return ProgramOptions{.exact = bitwise, .constants = {{3, fetches ? 0u : 1u}}};
+    };
+    Status programs =
+        makeKernels(device, {{out.spans_[0], "emit/bind_spans.comp", fetching(false, true)},
+                             {out.spans_[1], "emit/bind_spans.comp", fetching(true, true)},
+                             {out.leaves_[0], "emit/bind_leaves.comp", fetching(false, true)},
+                             {out.leaves_[1], "emit/bind_leaves.comp", fetching(true, true)},
+                             {out.touch_[0], "emit/bind_touch.comp", fetching(false, false)},
+                             {out.touch_[1], "emit/bind_touch.comp", fetching(true, false)},
+                             {out.stretches_, "emit/bind_stretches.comp", exact},
+                             {out.keep_, "emit/bind_keep.comp", {.constants = {{5, cellLanes(device)}}}},
+                             {out.count_, "emit/bind_count.comp", exact},
+                             {out.cellsOf_, "emit/bind_cells.comp"},
+                             {out.order_, "emit/bind_order.comp"},
+                             {out.sort_, "emit/bind_sort.comp", {.constants = {{5, sortLanes(device)}}}}});
+    if (!programs) return programs.failure();
     Status made[] = {makeRoom(device, out.cells_, "emit cells", (kAllCells + 1) * sizeof(EmitCell)),
                      makeRoom(device, out.bins_, "emit bins", kAllCells * kCellBins * 4ull),
                      makeRoom(device, out.noTexels_, "emit no texels", 16)};

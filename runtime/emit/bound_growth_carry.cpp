@@ -18,18 +18,10 @@ bool BoundGrowth::nearlyCrowded(const EmitState& counted) const {
 Status BoundGrowth::makeCarrying(bool moved) {
     Carrying& c = carrying_[moved];
     if (c.cells) return Done{};
-    const struct {
-        Program& program;
-        const char* shader;
-    } rows[] = {
-        {c.spans, "emit/carry_spans.comp"}, {c.leaves, "emit/carry_leaves.comp"}, {c.cells, "emit/carry_cells.comp"}};
-    const std::vector<SpecConstant> constants{{4, moved ? 1u : 0u}, {5, cellLanes(*device_)}};
-    for (const auto& row : rows) {
-        Result<Program> made = Program::compute(*device_, row.shader, {.constants = constants});
-        if (!made) return made.failure();
-        row.program = std::move(*made);
-    }
-    return Done{};
+    const ProgramOptions options{.constants = {{4, moved ? 1u : 0u}, {5, cellLanes(*device_)}}};
+    return makeKernels(*device_, {{c.spans, "emit/carry_spans.comp", options},
+                                  {c.leaves, "emit/carry_leaves.comp", options},
+                                  {c.cells, "emit/carry_cells.comp", options}});
 }
 
 // all: instances too, and not the order alone.

@@ -27,26 +27,18 @@ bool sameView(const EmitView& a, EmitView b) {
 }  // namespace
 
 Result<CulledView> CulledView::create(Device& device, const Terminals& terminals) {
-    const SpecConstant lanes{5, cellLanes(device)};
     CulledView out;
     out.device_ = &device;
     out.terminals_ = &terminals;
-    const struct {
-        Program& program;
-        const char* shader;
-        std::vector<SpecConstant> constants;
-    } programs[] = {{out.cullCells_, "emit/cull_cells.comp", {}},
-                    {out.listBlocks_, "emit/list_blocks.comp", {}},
-                    {out.listItems_, "emit/list_items.comp", {lanes}},
-                    {out.classifySpans_, "emit/classify_spans.comp", {lanes}},
-                    {out.classifyLeaves_, "emit/classify_leaves.comp", {lanes}},
-                    {out.scan_, scanShader(device), {}},
-                    {out.writeDrawn_, "emit/write_drawn.comp", {}}};
-    for (const auto& p : programs) {
-        Result<Program> made = Program::compute(device, p.shader, {.constants = p.constants});
-        if (!made) return made.failure();
-        p.program = std::move(*made);
-    }
+    const ProgramOptions lanes{.constants = {{5, cellLanes(device)}}};
+    Status programs = makeKernels(device, {{out.cullCells_, "emit/cull_cells.comp"},
+                                           {out.listBlocks_, "emit/list_blocks.comp"},
+                                           {out.listItems_, "emit/list_items.comp", lanes},
+                                           {out.classifySpans_, "emit/classify_spans.comp", lanes},
+                                           {out.classifyLeaves_, "emit/classify_leaves.comp", lanes},
+                                           {out.scan_, scanShader(device)},
+                                           {out.writeDrawn_, "emit/write_drawn.comp"}});
+    if (!programs) return programs.failure();
     Status made[] = {makeRoom(device, out.state_, "emit state", sizeof(EmitState)),
                      makeRoom(device, out.seen_, "emit seen cells", kAllCells * 8)};
     for (Status& s : made)

@@ -28,18 +28,11 @@ Result<TriangleWriter> TriangleWriter::create(Device& device, const Terminals& t
     TriangleWriter out;
     out.device_ = &device;
     out.terminals_ = &terminals;
-    const struct {
-        Program& program;
-        const char* shader;
-        bool exact = false;
-    } programs[] = {{out.barkVertices_, "emit/bark_vertices.comp", true},
-                    {out.barkIndices_, "emit/bark_indices.comp"},
-                    {out.looseTriangles_, "emit/loose_triangles.comp"}};
-    for (const auto& p : programs) {
-        Result<Program> made = Program::compute(device, p.shader, {.exact = p.exact, .constants = {}});
-        if (!made) return made.failure();
-        p.program = std::move(*made);
-    }
+    Status programs =
+        makeKernels(device, {{out.barkVertices_, "emit/bark_vertices.comp", {.exact = true, .constants = {}}},
+                             {out.barkIndices_, "emit/bark_indices.comp"},
+                             {out.looseTriangles_, "emit/loose_triangles.comp"}});
+    if (!programs) return programs.failure();
     return out;
 }
 

@@ -225,4 +225,15 @@ Result<Program> Program::graphics(Device& device, const GraphicsDesc& desc) {
     return p;
 }
 
+Status makeKernels(Device& device, std::initializer_list<Kernel> kernels) {
+    for (const Kernel& kernel : kernels) {
+        Result<Program> made = Program::compute(device, kernel.shader, kernel.options);
+        if (!made) return made.failure();
+        if (kernel.groupItems != 0)
+            requireEqual(made->localSize()[0], kernel.groupItems, std::string("local size of ") + kernel.shader);
+        kernel.program = std::move(*made);
+    }
+    return Done{};
+}
+
 }  // namespace espalier

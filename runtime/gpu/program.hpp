@@ -92,4 +92,14 @@ class Program {
     std::string name_;
 };
 
+// A compute program to be made, and where it goes.
+struct Kernel {
+    Program& program;
+    const char* shader;
+    ProgramOptions options{};
+    uint32_t groupItems = 0;  // its local size along x, where somebody relies on that; 0: any
+};
+// Fails with the first that fails.
+Status makeKernels(Device& device, std::initializer_list<Kernel> kernels);
+
 }  // namespace espalier

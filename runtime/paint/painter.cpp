@@ -64,16 +64,10 @@ Result<Buffer> roomier(Commands& commands, const Buffer& before, const char* nam
 
 Result<std::unique_ptr<Painter>> Painter::create(Device& device) {
     std::unique_ptr<Painter> painter(new Painter(device));
-    struct Row {
-        Program& program;
-        const char* shader;
-    };
-    for (const Row& row : {Row{painter->dabs_, "paint/dabs.comp"}, Row{painter->blocks_, "paint/blocks.comp"}}) {
-        Result<Program> made = Program::compute(device, row.shader, {.exact = true, .constants = {}});
-        if (!made) return made.failure();
-        requireEqual(made->localSize()[0], kBlockTexels, "local size of a painting kernel");
-        row.program = std::move(*made);
-    }
+    const ProgramOptions exact{.exact = true, .constants = {}};
+    Status programs = makeKernels(device, {{painter->dabs_, "paint/dabs.comp", exact, kBlockTexels},
+                                           {painter->blocks_, "paint/blocks.comp", exact, kBlockTexels}});
+    if (!programs) return programs.failure();
     Status room = ensure(device, painter->stroke_, "paint stroke", sizeof(StrokeUniforms));
     if (!room) return room.failure();
     return painter;
@@ -198,18 +192,11 @@ Status Painter::fill(std::span<PaintJob> jobs, float value) {
 }
 
 Status Painter::makeSmoothing() {
-    struct Row {
-        Program& program;
-        const char* shader;
-    };
-    for (const Row& row : {Row{places_, "paint/smooth_places.comp"}, Row{walk_, "paint/smooth_walk.comp"},
-                           Row{smooth_, "paint/smooth.comp"}}) {
-        if (smooth_) break;
-        Result<Program> made = Program::compute(device_, row.shader, {.exact = true, .constants = {}});
-        if (!made) return made.failure();
-        row.program = std::move(*made);
-    }
-    return Done{};
+    if (smooth_) return Done{};
+    const ProgramOptions exact{.exact = true, .constants = {}};
+    return makeKernels(device_, {{places_, "paint/smooth_places.comp", exact},
+                                 {walk_, "paint/smooth_walk.comp", exact},
+                                 {smooth_, "paint/smooth.comp", exact}});
 }
 
 // Dab by dab, since what one leaves the next one averages.

@@ -55,14 +55,13 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
 }
 
 Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
-    for (auto [program, shader] :
-         {std::pair{&cullGrids_, "render/roof_cull_grids.comp"}, std::pair{&cullRows_, "render/roof_cull_rows.comp"},
-          std::pair{&scan_, "render/roof_scan.comp"}, std::pair{&writeRows_, "render/roof_write_rows.comp"}}) {
-        // Exact, so that counting and writing decide alike, whatever a compiler makes of either.
-        Result<Program> made = Program::compute(device, shader, {.exact = true, .constants = {}});
-        if (!made) return made.failure();
-        *program = std::move(*made);
-    }
+    // Exact, so that counting and writing decide alike, whatever a compiler makes of either.
+    const ProgramOptions exact{.exact = true, .constants = {}};
+    Status kernels = makeKernels(device, {{cullGrids_, "render/roof_cull_grids.comp", exact},
+                                          {cullRows_, "render/roof_cull_rows.comp", exact},
+                                          {scan_, "render/roof_scan.comp", exact},
+                                          {writeRows_, "render/roof_write_rows.comp", exact}});
+    if (!kernels) return kernels;
     struct Row {
         Program& program;
         const char* name;

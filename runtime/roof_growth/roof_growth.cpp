@@ -26,14 +26,6 @@ constexpr uint32_t kRareRules = 1u << kRuleJoin | 1u << kRuleProject | 1u << kRu
 // Read back: the status, the waves, what houses have read.
 constexpr uint64_t kReadsAt = sizeof(RoofStatus) + kRoofWaves * sizeof(RoofWave);
 
-Status makeKernel(Device& device, Program& program, const char* shader, std::vector<SpecConstant> constants) {
-    Result<Program> made = Program::compute(device, shader, {.exact = true, .constants = std::move(constants)});
-    if (!made) return made.failure();
-    requireEqual(made->localSize()[0], kRoofGroup, "local size of a roof kernel");
-    program = std::move(*made);
-    return Done{};
-}
-
 }  // namespace
 
 Status GpuRoofs::setUp() {
@@ -54,8 +46,9 @@ Status GpuRoofs::makeKernels(const RuleMap& grammar, bool fetches) {
     if (derive_ && kind == kind_) return Done{};
     kind_ = kind;
     derive_ = {};
-    return makeKernel(device_, derive_, "roof_growth/derive.comp",
-                      {{0, kind.mapByAddress}, {1, kind.uses}, {2, kind.recordsByAddress}});
+    const ProgramOptions options{.exact = true,
+                                 .constants = {{0, kind.mapByAddress}, {1, kind.uses}, {2, kind.recordsByAddress}}};
+    return espalier::makeKernels(device_, {{derive_, "roof_growth/derive.comp", options, kRoofGroup}});
 }
 
 RoofEnv GpuRoofs::environment(const RoofInputs& inputs, const Set& set) const {
