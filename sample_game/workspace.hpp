@@ -36,7 +36,7 @@ constexpr float kLeastRowStep = .02f, kMostRowStep = 5;  // metres
 
 // What is remembered from one run to the next, besides the places of movable windows.
 struct Layout {
-    bool panel = true, figures = true, grammar = false, atlas = false, help = false;
+    bool panel = true, figures = false, grammar = false, atlas = false, help = false;
     float panelWidth = 320;                      // at 96 dpi
     uint32_t windowWidth = 0, windowHeight = 0;  // 0: never opened
     bool maximised = false;

@@ -51,7 +51,7 @@ bool differEverywhere(const Fields& a, const Fields& b) {
 // Every field another than at the beginning.
 Layout unlikeLayout() {
     return {.panel = false,
-            .figures = false,
+            .figures = true,
             .grammar = true,
             .atlas = true,
             .panelWidth = 410,
