@@ -73,7 +73,7 @@ typedef struct EspHostDevice {
 typedef struct EspContextDef {
     const EspHostDevice* host;   /* NULL: Espalier makes its own device */
     int validation;              /* own device only: 1 turns the validation layer on where it is installed */
-    EspLogFn log;                /* of what a context does once it is made, until espDestroy has returned; NULL: warnings and
+    EspLogFn log;                /* of what a context does, from espCreate on until espDestroy has returned; NULL: warnings and
                                     errors go to stderr */
     void* logUser;
     const char* terminals;       /* path of the terminal meshes (terminals.glb), beside which towns look for roofs.glb; NULL:
@@ -107,7 +107,8 @@ ESP_API const char* espDeviceName(const EspContext* context);     /* lives as lo
 
 /* ---- Surfaces ----------------------------------------------------------------------------------------------- */
 
-/* Rows of a 3×4 object-to-world matrix. Its scale must be even in all directions, 1e-6 to 1e6, and mirror nothing. */
+/* Rows of a 3×4 object-to-world matrix. Its scale must be even in all directions, 1e-6 to 1e6, and mirror nothing;
+ * it moves by up to 1e9 m along each axis. */
 typedef struct EspTransform { float rows[3][4]; } EspTransform;
 ESP_API EspTransform espIdentity(void);
 
@@ -205,7 +206,7 @@ ESP_API EspResult espRecompileGrammar(EspContext* context, EspGrammar grammar, c
 /* What isn't wrong in the text that grows, but may not be meant: lines "file:line:column: warning: rule: message", "" if there
  * are none. Lives as long as the grammar and until it is compiled anew. */
 ESP_API const char* espGrammarWarnings(const EspContext* context, EspGrammar grammar);
-ESP_API EspResult espDestroyGrammar(EspContext* context, EspGrammar grammar);   /* its seeds go with it */
+ESP_API EspResult espDestroyGrammar(EspContext* context, EspGrammar grammar);   /* its seeds go with it, or the town's roofs */
 ESP_API uint32_t espParamCount(const EspContext* context, EspGrammar grammar);
 ESP_API EspResult espParamInfo(const EspContext* context, EspGrammar grammar, uint32_t index, EspParamInfo* out);
 /* Values outside the range are clamped to it. count: 3 for a colour, else 1. */
@@ -356,7 +357,8 @@ typedef struct EspDrawDef {
     void* colourImage;           /* VkImage */
     void* colourView;            /* VkImageView */
     uint32_t colourFormat;       /* VkFormat */
-    uint64_t frame;              /* with commandBuffer: the host's number of this frame, from 1, rising; one that is done is refused */
+    uint64_t frame;              /* with commandBuffer: the host's number of this frame, from 1, rising, the same for several
+                                    views of one; one that is done is refused */
     uint64_t framesDone;         /* the GPU has finished all of the host's frames up to this one */
     const EspHostScene* scene;   /* with commandBuffer: what growth is drawn into; NULL: the whole picture is ours */
 } EspDrawDef;

@@ -18,7 +18,8 @@ typedef enum EspLayerSpace {
     ESP_LAYER_TEXELS = 2         /* as espReadLayer gave it: the same size, taken as it is, gutters too */
 } EspLayerSpace;
 
-/* texels: height rows of width floats in [0,1], the first row at v = 0; 1 to 8192 each. NULL removes the layer. */
+/* texels: height rows of width floats in [0,1], the first row at v = 0; 1 to 8192 each. What lies beyond is taken as the
+ * nearer of 0 and 1, what isn't a number as 0. NULL removes the layer. */
 typedef struct EspLayerDef {
     EspSurface surface;
     const char* name;            /* as a grammar's `context` declares it */
@@ -88,7 +89,8 @@ typedef struct EspDab {
 ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre in radius, half strength, without a hard core or limits */
 /* Several strokes may be open at a time, on unlike layers. */
 ESP_API EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out);
-/* One pass on the GPU, applied in order; the next espUpdate and espDraw see it. At most 65,536 dabs. */
+/* On the GPU, applied in order; the next espUpdate and espDraw see it. At most 65,536 dabs. They go 32 together: where
+ * memory runs out, those before are painted, and the stroke's record knows of them. */
 ESP_API EspResult espStrokeDabs(EspContext* context, EspStroke stroke, const EspDab* dabs, uint32_t count);
 /* Waits for the GPU and keeps only the blocks that changed, or all that it has come to where memory is short. */
 ESP_API EspResult espEndStroke(EspContext* context, EspStroke stroke);

@@ -139,7 +139,7 @@ typedef struct EspRoofStats {
     uint64_t bytes;              /* of what was grown */
     double structureMs, expandMs;   /* from footprints to roofs, on the CPU; the latest expansion, GPU time */
     uint64_t hash;               /* canonical, of the town as it stands, whether houses grew one by one or all at once */
-    uint64_t housesGrown;        /* by all expansions together, since creation */
+    uint64_t housesGrown;        /* by all expansions together since the town was loaded with a grammar */
 } EspRoofStats;
 ESP_API EspResult espReadRoofStats(EspContext* context, EspRoofStats* out);
 

@@ -233,7 +233,7 @@ bool App::frame(float seconds) {
     ++frames_;
     const bool hurried = moved || controls_->painting();
     if (!drawFrame(hurried, grew, options_.frames && frames_ >= options_.frames)) return false;
-    session_.nextFrame();
+    session_.nextFrame(work_);
     work_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     noteTimes();
     const bool held = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || toolTipWaits() || clickWaits() ||

@@ -145,6 +145,7 @@ void Session::end(Workspace& work) {
             keepNow(work);
     }
     autosaves_.release();
+    if (work.error.empty()) work.error = std::exchange(lostRun_, {});
 }
 
 bool Session::keeps(const Workspace& work) const {
@@ -278,6 +279,13 @@ void Session::beginRun(Workspace& work) {
     for (size_t i = 0; i < before.size(); ++i)
         if (chosen.contains(before[i])) work.selected.insert(work.scene().seeds[i].key);
     work.forgetBarren();
+}
+
+void Session::nextFrame(Workspace& work) {
+    recorder_.nextFrame();
+    if (!recorder_.failed() || !recording()) return;
+    stopRecording(work);
+    lostRun_ = work.error;
 }
 
 void Session::stopRecording(Workspace& work) {

@@ -75,7 +75,8 @@ class Session {
     // records, as save()'s; nothing is to edit the document before that.
     void startRecording(Workspace& work, const std::string& path, uint32_t width, uint32_t height, Ended ended);
     void stopRecording(Workspace& work);
-    void nextFrame() { recorder_.nextFrame(); }
+    // Ends a recording that can't be written any more.
+    void nextFrame(Workspace& work);
 
   private:
     FileStamp projectNow() const;             // of its file; none without a folder
@@ -104,6 +105,7 @@ class Session {
     GrammarFiles grammarFiles_;
     FileWatch models_;  // of surfaces and town
     espalier::document::Recorder recorder_;
+    std::string lostRun_;  // why one ended by itself: told once more at the end
     Background background_;
 };
 

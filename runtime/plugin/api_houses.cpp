@@ -16,15 +16,6 @@ RoofHouse* houseOf(const EspContext* context, uint32_t house) {
     return const_cast<RoofHouse*>(&context->town->structure.houses[house]);
 }
 
-bool finiteDef(const EspHouseDef& def) {
-    if (!(def.slope >= 0 && def.slope < 100) || !(def.eaveHeight >= 0 && def.eaveHeight < 1000)) return false;
-    for (uint32_t i = 0; i < def.edgeCount; ++i)
-        if (!(def.edges[i].slope >= 0 && def.edges[i].slope < 100)) return false;
-    for (uint32_t i = 0; def.corners && i < 2 * def.cornerCount; ++i)
-        if (!std::isfinite(def.corners[i])) return false;
-    return true;
-}
-
 static_assert(uint32_t(RoofShape::gable) == ESP_ROOF_GABLE && uint32_t(RoofShape::halfHip) == ESP_ROOF_HALF_HIP &&
               uint32_t(RoofShape::pyramid) == ESP_ROOF_PYRAMID && uint32_t(RoofShape::shed) == ESP_ROOF_SHED &&
               uint32_t(RoofShape::gambrel) == ESP_ROOF_GAMBREL && uint32_t(RoofShape::mansard) == ESP_ROOF_MANSARD &&
@@ -33,13 +24,6 @@ static_assert(uint32_t(RoofMaterial::tiles) == ESP_COVERING_TILES &&
               uint32_t(RoofMaterial::grass) == ESP_COVERING_GRASS &&
               uint32_t(RoofMaterial::plainTiles) == ESP_COVERING_PLAIN_TILES &&
               uint32_t(RoofMaterial::barrelTiles) == ESP_COVERING_BARREL_TILES);
-
-bool lookFits(const EspHouseLook& look) {
-    const auto share = [](float c) { return c >= 0 && c <= 1; };
-    return isAmong(look.covering, ESP_COVERING_ANY, ESP_COVERING_BARREL_TILES) &&
-           isAmong(look.chimneys, ESP_CHIMNEYS_ANY, ESP_CHIMNEYS_ALL) && share(look.overhang) &&
-           (!look.coloured || std::ranges::all_of(look.colour, share));
-}
 
 // Rings are made of the corners, all of them.
 bool ringsFit(const EspHouseDef& def) {
@@ -51,6 +35,44 @@ bool ringsFit(const EspHouseDef& def) {
         sum += def.rings[r];
     }
     return sum == def.cornerCount;
+}
+
+const char* mistakeIn(const EspHouseLook& look) {
+    const auto share = [](float c) { return c >= 0 && c <= 1; };
+    if (!isAmong(look.covering, ESP_COVERING_ANY, ESP_COVERING_BARREL_TILES)) return "no such covering";
+    if (!isAmong(look.chimneys, ESP_CHIMNEYS_ANY, ESP_CHIMNEYS_ALL)) return "chimneys are 0 to 2";
+    if (!share(look.overhang)) return "the overhang must be within 0 to 1 m";
+    if (look.coloured && !std::ranges::all_of(look.colour, share)) return "a colour must be within 0 to 1";
+    return nullptr;
+}
+
+const char* mistakeIn(const EspHouseEdge& edge, uint32_t corners) {
+    if (edge.edge >= corners) return "an edge is beyond the last";
+    if (edge.gable < -1 || edge.gable > 1) return "an edge's gable is -1, 0 or 1";
+    if (!(edge.slope >= 0 && edge.slope < 100)) return "an edge's slope must be within 0 to 100";
+    return nullptr;
+}
+
+// corners: that edges count over, where none are given.
+const char* mistakeIn(const EspHouseDef& def, uint32_t corners) {
+    if (!isAmong(def.shape, ESP_ROOF_HIP, ESP_ROOF_FLAT)) return "no such shape";
+    if (!(def.slope >= 0 && def.slope < 100)) return "the slope must be within 0 to 100";
+    if (!(def.eaveHeight >= 0 && def.eaveHeight < 1000)) return "the eaves' height must be within 0 to 1000 m";
+    if (def.corners && (def.cornerCount < 3 || def.cornerCount > kMostCorners))
+        return "an outline has 3 to 65536 corners";
+    if (!ringsFit(def)) return "the rings aren't made of all corners, three or more each";
+    for (uint32_t i = 0; def.corners && i < 2 * def.cornerCount; ++i)
+        if (!std::isfinite(def.corners[i])) return "a corner is not finite";
+    if ((def.edgeCount && !def.edges) || def.edgeCount > kMostCorners) return "too many edges, or null";
+    for (uint32_t i = 0; i < def.edgeCount; ++i)
+        if (const char* mistake = mistakeIn(def.edges[i], def.corners ? def.cornerCount : corners)) return mistake;
+    return def.look ? mistakeIn(*def.look) : nullptr;
+}
+
+uint32_t cornersOf(const auto& rings) {
+    uint32_t sum = 0;
+    for (const auto& ring : rings) sum += uint32_t(ring.size());
+    return sum;
 }
 
 const Footprint& footprintOf(const LoadedTown& town, uint32_t house) {
@@ -201,11 +223,10 @@ EspResult espSetHouse(EspContext* context, uint32_t index, const EspHouseDef* de
     return guarded(context, [&] {
         if (!houseOf(context, index) || !def)
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: no such house, or null");
-        if (!isAmong(def->shape, ESP_ROOF_HIP, ESP_ROOF_FLAT) || (def->edgeCount && !def->edges) ||
-            (def->corners && def->cornerCount < 3) || def->cornerCount > kMostCorners ||
-            def->edgeCount > kMostCorners || !finiteDef(*def) || !ringsFit(*def) ||
-            (def->look && !lookFits(*def->look)))
-            return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: a value out of its range");
+        const uint32_t corners =
+            std::max(cornersOf(houseOf(context, index)->rings), cornersOf(footprintOf(*context->town, index).rings));
+        if (const char* mistake = mistakeIn(*def, corners))
+            return fail(context, ESP_INVALID_ARGUMENT, std::string("espSetHouse: ") + mistake);
         const LoadedTown& town = *context->town;
         const HouseWish wish = wishOf(town.structure.houses[index], *def);
         return setHouse(*context, index,

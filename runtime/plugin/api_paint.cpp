@@ -10,6 +10,8 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kMaxDabs = 1u << 16;  // of one call
+constexpr size_t kDabsTogether = 32;     // blocks that one of them reaches are gone through for each of them
+constexpr float kFarthestDab = 1e12f;    // metres: nothing lies so far away, and squares of distances are still floats
 constexpr float kMostReach = 16;         // texels: what a texel tells of borders ends a little farther out
 
 bool usable(const EspDab& dab) {
@@ -111,25 +113,13 @@ Status smooth(EspContext& context, std::vector<PaintJob>& jobs, const PaintStrok
     return smoothed;
 }
 
-EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const EspDab> dabs) {
-    std::vector<DabRecord> records;
-    for (const EspDab& dab : dabs) {
-        if (!usable(dab))
-            return fail(&context, ESP_INVALID_ARGUMENT,
-                        "espStrokeDabs: a dab is not finite, or its pressure not within 0 to 1");
-        records.push_back({{dab.position[0], dab.position[1], dab.position[2]},
-                           dab.pressure,
-                           {dab.normal[0], dab.normal[1], dab.normal[2]},
-                           0});
-    }
-    // What is for roofs alone makes no layers on surfaces that happen to be near.
-    const bool roofsOnly = paintTown(context, stroke, records) && !plantsRead(context, stroke.layer);
+EspResult paintSurfaces(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs, bool roofsOnly) {
     TouchedBlocks touched;
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
         if (roofsOnly && !paintedLayer(context, id, stroke.layer)) return;
         std::vector<uint32_t> blocks;
-        const float reach = reachOf(surface, records, stroke.radius);
-        for (const DabRecord& dab : records)
+        const float reach = reachOf(surface, dabs, stroke.radius);
+        for (const DabRecord& dab : dabs)
             boundsOf(surface).near(glm::vec3(surface.toObject * glm::vec4(dab.position, 1)), reach, blocks);
         std::ranges::sort(blocks);
         blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
@@ -141,13 +131,33 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
     if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
     Undo untold([&] { context.touch(); });
     Status painted =
-        stroke.smooths ? smooth(context, jobs, stroke, records) : context.painter->dabs(jobs, stroke.brush, records);
+        stroke.smooths ? smooth(context, jobs, stroke, dabs) : context.painter->dabs(jobs, stroke.brush, dabs);
     for (const auto& [id, blocks] : touched) {  // smoothing that failed may have come to some of the surfaces
         const PlacedSurface& surface = *context.surfaces.find(id);
-        layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, records, stroke.radius));
+        layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, dabs, stroke.radius));
     }
     untold.done();
     return painted ? ESP_OK : failGpu(&context, painted.failure());
+}
+
+EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const EspDab> dabs) {
+    std::vector<DabRecord> records;
+    for (const EspDab& dab : dabs) {
+        if (!usable(dab))
+            return fail(&context, ESP_INVALID_ARGUMENT,
+                        "espStrokeDabs: a dab is not finite, or its pressure not within 0 to 1");
+        const glm::vec3 at(dab.position[0], dab.position[1], dab.position[2]);
+        if (glm::length(at / kFarthestDab) > 1) continue;
+        records.push_back({at, dab.pressure, {dab.normal[0], dab.normal[1], dab.normal[2]}, 0});
+    }
+    // What is for roofs alone makes no layers on surfaces that happen to be near.
+    const bool roofsOnly = paintTown(context, stroke, records) && !plantsRead(context, stroke.layer);
+    for (size_t first = 0; first < records.size(); first += kDabsTogether) {
+        const size_t count = std::min(kDabsTogether, records.size() - first);
+        if (EspResult bad = paintSurfaces(context, stroke, std::span(records).subspan(first, count), roofsOnly))
+            return bad;
+    }
+    return ESP_OK;
 }
 
 // Whether a layer that isn't painted has this value for all grammars that read it.

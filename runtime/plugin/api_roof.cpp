@@ -188,7 +188,9 @@ EspResult espLoadTown(EspContext* context, const EspTownDef* def) {
             return fail(context, ESP_INVALID_CONTENT, "espLoadTown: more than 512 MiB of text");
         for (float v : {def->position[0], def->position[1], def->position[2], def->turn, def->groundColour[0],
                         def->groundColour[1], def->groundColour[2]})
-            if (!(std::abs(v) < 1e6f)) return fail(context, ESP_INVALID_ARGUMENT, "espLoadTown: not a number");
+            if (!(std::abs(v) < 1e6f))
+                return fail(context, ESP_INVALID_ARGUMENT,
+                            "espLoadTown: position, turn and ground colour must be numbers within 1e6");
         if (def->grammar.id) {
             const LoadedGrammar* grammar = context->grammars.find(def->grammar.id);
             if (!grammar || !grammar->map.roofs())

@@ -68,6 +68,8 @@ EspResult plant(EspContext& context, const EspSeedDef& def, EspSeed* out) {
             return fail(&context, ESP_INVALID_ARGUMENT,
                         grammar->name + ": no rule grows from '" + std::string(def.symbol) + "'");
     }
+    if (def.twin > TwinTable::kMaxTwin)
+        return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: a twin is at most 1048576");
     PlantedSeed seed;
     seed.grammar = def.grammar.id;
     seed.symbol = def.symbol ? def.symbol : "";

@@ -18,14 +18,16 @@ glm::mat4 matrixOf(const EspTransform& place) {
 
 // 1e-6 to 1e6, measured.
 constexpr float kLeastScale = 0.99e-6f, kMostScale = 1.01e6f;
+constexpr float kMostMove = 1e9f;  // metres: where squares of distances are far from what a float holds
 
 // A move, a turn and an even scale, or nothing.
 std::optional<float> evenScale(const glm::mat4& m) {
     const glm::vec3 x(m[0]), y(m[1]), z(m[2]);
     const float scale = glm::length(x);
     const float limit = 1e-3f * scale;
-    const bool finite = std::isfinite(m[3].x) && std::isfinite(m[3].y) && std::isfinite(m[3].z);
-    if (!finite || !(scale >= kLeastScale) || !(scale <= kMostScale)) return std::nullopt;
+    const glm::vec3 moved = glm::abs(glm::vec3(m[3]));
+    const bool near = moved.x <= kMostMove && moved.y <= kMostMove && moved.z <= kMostMove;
+    if (!near || !(scale >= kLeastScale) || !(scale <= kMostScale)) return std::nullopt;
     if (!(std::abs(glm::length(y) - scale) < limit) || !(std::abs(glm::length(z) - scale) < limit)) return std::nullopt;
     const float skew = std::max({std::abs(glm::dot(x, y)), std::abs(glm::dot(x, z)), std::abs(glm::dot(y, z))});
     if (!(skew < limit * scale)) return std::nullopt;
@@ -104,7 +106,7 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     const std::optional<float> scale = evenScale(toWorld);
     if (!scale)
         return fail(&context, ESP_INVALID_ARGUMENT,
-                    call + "the transform must move, turn and scale evenly, without mirroring");
+                    call + "the transform must move (by up to 1e9 m), turn and scale evenly, without mirroring");
     if (context.surfaces.size() >= kMaxSurfaces)
         return fail(&context, ESP_INVALID_ARGUMENT, call + "there are 255 surfaces already");
     if (EspResult readable = checkReadable(&context, path)) return readable;
@@ -146,8 +148,9 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
     const glm::mat4 toWorld = matrixOf(place);
     const std::optional<float> scale = evenScale(toWorld);
     if (!scale)
-        return fail(&context, ESP_INVALID_ARGUMENT,
-                    "espMoveSurface: the transform must move, turn and scale evenly, without mirroring");
+        return fail(
+            &context, ESP_INVALID_ARGUMENT,
+            "espMoveSurface: the transform must move (by up to 1e9 m), turn and scale evenly, without mirroring");
     if (toWorld == surface.toWorld) return ESP_OK;
     // All that asks for memory comes first. What it touches from now on is known when contacts have been found anew.
     std::vector<bool> reached = context.moved;

@@ -30,7 +30,7 @@ const char* mistakeIn(const EspBrush& brush) {
     const auto share = [](float v) { return v >= 0 && v <= 1; };
     if (!brush.layer || !*brush.layer) return "a brush needs a layer's name";
     if (!isAmong(brush.mode, ESP_BRUSH_PAINT, ESP_BRUSH_SMOOTH)) return "there is no such mode";
-    if (!(brush.radius >= 1e-6f && brush.radius <= 1e6f)) return "the radius must be over 0, in metres";
+    if (!(brush.radius >= 1e-6f && brush.radius <= 1e6f)) return "the radius must be within 1e-6 to 1e6 m";
     if (!share(brush.value) || !share(brush.strength) || !share(brush.hardness) || !share(brush.limitSoftness))
         return "value, strength, hardness and limitSoftness are 0 to 1";
     if (std::isnan(brush.slopeRange[0]) || std::isnan(brush.slopeRange[1]) || std::isnan(brush.heightRange[0]) ||

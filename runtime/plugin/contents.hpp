@@ -118,12 +118,12 @@ struct GrammarVariant {
 class TwinTable {
   public:
     // wanted: 0 for the first that is free. False: it is taken, or beyond 2^20.
+    static constexpr uint32_t kMaxTwin = 1u << 20;
     bool take(uint32_t number, uint32_t wanted, uint32_t& twin);
     void release(uint32_t number, uint32_t twin);
     size_t numbers() const { return numbers_.size(); }  // that are planted
 
   private:
-    static constexpr uint32_t kMaxTwin = 1u << 20;
     struct Uses {
         std::vector<bool> taken;  // [twin - 1]
         uint32_t firstFree = 0;   // none before it is free

@@ -151,11 +151,21 @@ EspResult grownOr(const EspContext& context, F&& body) {
     }
 }
 
+// What espLastError(NULL) tells: why this thread's last call without a context failed.
+std::string& errorAlone();
+inline EspResult failAlone(EspResult code, std::string_view message) noexcept {
+    try {
+        errorAlone() = message;
+    } catch (...) {  // no memory for it: the code has to do
+        errorAlone().clear();
+    }
+    return code;
+}
 // Runs a function of the ABI. No exception leaves it.
 template <class F>
 EspResult guarded(const EspContext* context, F&& body) noexcept {
     try {
-        if (!context) return ESP_INVALID_ARGUMENT;
+        if (!context) return failAlone(ESP_INVALID_ARGUMENT, "there is no context: it is null");
         context->error.clear();
         return body();
     } catch (const std::bad_alloc&) {
@@ -167,16 +177,7 @@ EspResult guarded(const EspContext* context, F&& body) noexcept {
     }
 }
 
-// The same for functions without a context. What espLastError(NULL) tells: why this thread's last call of one failed.
-std::string& errorAlone();
-inline EspResult failAlone(EspResult code, std::string_view message) noexcept {
-    try {
-        errorAlone() = message;
-    } catch (...) {  // no memory for it: the code has to do
-        errorAlone().clear();
-    }
-    return code;
-}
+// The same for functions without a context.
 template <class F>
 EspResult guardedAlone(F&& body) noexcept {
     try {

@@ -136,8 +136,10 @@ EspResult espPick(const EspContext* context, const float origin[3], const float 
         if (!origin || !direction || !out || !finite(origin) || !finite(direction) ||
             (direction[0] == 0 && direction[1] == 0 && direction[2] == 0))
             return fail(context, ESP_INVALID_ARGUMENT, "espPick: null pointer, or a ray that isn't one");
-        const auto point =
-            pickSurfaces(*context, {origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]});
+        // Of any length: its square may be more, or less, than a float holds.
+        glm::vec3 along(direction[0], direction[1], direction[2]);
+        along = glm::normalize(along / std::max({std::abs(along.x), std::abs(along.y), std::abs(along.z)}));
+        const auto point = pickSurfaces(*context, {origin[0], origin[1], origin[2]}, along);
         // Not logged: a ray that meets nothing is an answer.
         if (!point) return ESP_INVALID_ARGUMENT;
         fill(*point, out);

@@ -224,7 +224,8 @@ TEST_CASE("a surface that the host has no memory for is neither drawn nor kept")
     const auto load = [&](uint32_t pieces) {
         left = pieces;
         const EspResult result = espLoadSurface(life.context, ESPALIER_SQUARE, nullptr, &surface);
-        const uint32_t rest = std::exchange(left, kPlenty);
+        const uint32_t rest = left;
+        left = kPlenty;
         if (result == ESP_OK) REQUIRE(espDestroySurface(life.context, surface) == ESP_OK);
         return std::pair(result, pieces - rest);
     };
@@ -440,8 +441,9 @@ TEST_CASE("a town whose roofs' meshes the host had no memory to name gets them a
         town.length = 0;
         left = pieces;
         const EspResult result = espLoadTown(life.context, &town);
-        const uint32_t rest = std::exchange(left, kPlenty);
-        return std::pair(result, pieces - rest);
+        const uint32_t took = pieces - left;
+        left = kPlenty;
+        return std::pair(result, took);
     };
     {
         FailingDevice device;

@@ -1,4 +1,4 @@
-// Ranges that espalier.h names, with both of their ends.
+// Ranges that the headers name, with both of their ends, and what lies far beyond.
 #include <doctest/doctest.h>
 
 #include <vector>
@@ -21,7 +21,97 @@ std::vector<uint8_t> picture(EspContext* context, float fov) {
     return pixels;
 }
 
+std::vector<float> mask(const Life& life) {
+    uint32_t size = 0;
+    if (espReadLayer(life.context, life.surface, "mask", nullptr, &size) != ESP_OK) return {};
+    std::vector<float> texels(size_t(size) * size);
+    REQUIRE(espReadLayer(life.context, life.surface, "mask", texels.data(), &size) == ESP_OK);
+    return texels;
+}
+
+// A stroke of these dabs, ended.
+EspStroke painted(const Life& life, const std::vector<EspDab>& dabs, bool together) {
+    EspBrush brush = espDefaultBrush();
+    brush.layer = "mask";
+    brush.radius = .05f;
+    brush.strength = .4f;
+    EspStroke stroke{};
+    REQUIRE(espBeginStroke(life.context, &brush, &stroke) == ESP_OK);
+    for (size_t i = 0; i < dabs.size(); i += together ? dabs.size() : 1)
+        REQUIRE(espStrokeDabs(life.context, stroke, &dabs[i], together ? uint32_t(dabs.size()) : 1) == ESP_OK);
+    REQUIRE(espEndStroke(life.context, stroke) == ESP_OK);
+    return stroke;
+}
+
 }  // namespace
+
+TEST_CASE("dabs that lie however far away paint nothing, and nothing is kept of them") {
+    FailingDevice device;
+    Life life;
+    REQUIRE((life.create(device) && life.load()));
+    const EspStroke near = painted(life, {{{.2f, .2f, 0}, {0, 0, 1}, 1}}, true);
+    REQUIRE(espStrokeBytes(life.context, near) > 0);
+    const std::vector<float> before = mask(life);
+    for (const float far : {1e4f, 1e11f, 1e13f, 1.9e19f, 2.1e19f, 1e30f, 3.4e38f}) {
+        CAPTURE(far);
+        for (const EspDab& dab : {EspDab{{far, 0, 0}, {0, 0, 1}, 1}, EspDab{{far, -far, far}, {0, 0, 1}, 1}})
+            CHECK(espStrokeBytes(life.context, painted(life, {dab}, true)) == 0);
+        CHECK(mask(life) == before);
+    }
+}
+
+TEST_CASE("many dabs in one call paint what they do one by one") {
+    FailingDevice device;
+    Life one, all;
+    REQUIRE((one.create(device) && one.load()));
+    REQUIRE((all.create(device) && all.load()));
+    std::vector<EspDab> dabs;
+    for (uint32_t i = 0; i < 100; ++i)
+        dabs.push_back({{.01f * float(i % 37), .9f - .008f * float(i), 0}, {0, 0, 1}, .01f * float(i % 100)});
+    painted(one, dabs, false);
+    const EspStroke together = painted(all, dabs, true);
+    const std::vector<float> before = mask(all);
+    CHECK(before == mask(one));
+    REQUIRE(espSwapStroke(all.context, together) == ESP_OK);
+    CHECK(mask(all) != before);
+    REQUIRE(espSwapStroke(all.context, together) == ESP_OK);
+    CHECK(mask(all) == before);
+}
+
+TEST_CASE("surfaces are moved by up to a billion metres, no further") {
+    FailingDevice device;
+    Life life;
+    REQUIRE((life.create(device) && life.load()));
+    for (const float far : {1e9f, 1.1e9f, 1e30f}) {
+        CAPTURE(far);
+        EspTransform place = espIdentity();
+        place.rows[1][3] = -far;
+        CHECK(espMoveSurface(life.context, life.surface, &place) == (far > 1e9f ? ESP_INVALID_ARGUMENT : ESP_OK));
+    }
+}
+
+TEST_CASE("a ray's length doesn't matter to where it meets, and how far off") {
+    FailingDevice device;
+    Life life;
+    REQUIRE((life.create(device) && life.load()));
+    const float origin[3] = {.2f, .3f, 2};
+    for (const float length : {1e-36f, 1e-20f, 1.f, 1e20f, 3e38f}) {
+        CAPTURE(length);
+        const float direction[3] = {0, 0, -length};
+        EspHit hit{};
+        REQUIRE(espPick(life.context, origin, direction, &hit) == ESP_OK);
+        CHECK(hit.distance == doctest::Approx(2).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("a call without a context says so, whatever the last one said") {
+    EspContext* context = nullptr;
+    CHECK(espCreate(nullptr, nullptr) == ESP_INVALID_ARGUMENT);
+    const std::string before = espLastError(nullptr);
+    CHECK(espUpdate(context) == ESP_INVALID_ARGUMENT);
+    CHECK(espLastError(nullptr) != before);
+    CHECK(std::string(espLastError(nullptr)).find("context") != std::string::npos);
+}
 
 TEST_CASE("each field of view that is allowed shows a picture of its own") {
     FailingDevice device;

@@ -3,6 +3,7 @@
 // --replay the frames are those of a recorded run instead.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -91,8 +92,10 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_option("--layer", options.layersSaid,
                    "NAME=FILE: a picture drawn in the model's UVs, or of a town's layer, seen from above")
         ->allow_extra_args(false);
-    app.add_option("--export", options.exportsSaid,
-                   "NAME=FILE: after the last frame writes a layer over the surface's walk UVs (.exr, .png)")
+    app.add_option(
+           "--export", options.exportsSaid,
+           "NAME=FILE: after the last frame writes a layer over the surface's walk UVs, or of a town's seen from "
+           "above (.exr, .png)")
         ->allow_extra_args(false);
     app.add_option("--view", options.view, "shaded, charts, normals, lod, depth, overdraw or layer:NAME")
         ->capture_default_str()
@@ -124,10 +127,17 @@ bool parseSize(const std::string& text, uint32_t& width, uint32_t& height) {
 
 bool parseCamera(const std::string& text, EspCamera& camera) {
     float v[7];
-    char rest = 0;
-    const int count =
-        std::sscanf(text.c_str(), "%f,%f,%f,%f,%f,%f,%f%c", v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, &rest);
-    if (count != 6 && count != 7) return false;
+    int count = 0;
+    const char *at = text.data(), *const end = at + text.size();
+    for (bool more = true; more; ++count) {
+        if (count == 7) return false;
+        while (at != end && *at == ' ') ++at;
+        const auto [rest, wrong] = std::from_chars(at, end, v[count]);
+        if (wrong != std::errc() || (rest != end && *rest != ',')) return false;
+        more = rest != end;
+        at = more ? rest + 1 : rest;
+    }
+    if (count < 6) return false;
     for (int i = 0; i < 3; ++i) {
         camera.eye[i] = v[i];
         camera.target[i] = v[3 + i];
@@ -218,23 +228,40 @@ bool filmTurn(const Scene& scene, uint32_t frames, Film& film, std::string& erro
     return true;
 }
 
+// Tells mistakes in texts, whose last good ones go on growing: each when it is new.
+class Mistakes {
+  public:
+    void tell(const Scene& scene, const std::string& where) {
+        told_.resize(scene.grammars.size());
+        for (size_t i = 0; i < told_.size(); ++i) {
+            const std::string& error = scene.grammars[i].error;
+            if (!error.empty() && error != told_[i]) warn(where + error);
+            told_[i] = error;
+        }
+    }
+
+  private:
+    std::vector<std::string> told_;
+};
+
 // All frames are grown, so that each is what it was when it was recorded; some are drawn.
-bool filmRun(const Run& run, const std::string& file, uint32_t every, Document& document, Film& film, uint32_t& taken,
-             std::string& error) {
+bool filmRun(const Run& run, const std::string& file, uint32_t every, Document& document, Film& film,
+             Mistakes& mistakes, uint32_t& taken, std::string& error) {
     size_t next = 0;
     const uint32_t frames = run.frames();
     std::set<std::string> unread;  // layers that were warned of
     for (uint32_t frame = 0; frame < frames; ++frame) {
         for (; next < run.lines.size() && run.lines[next].frame == frame; ++next) {
+            const std::string at = file + ":" + std::to_string(run.lines[next].number) + ": ";
             const std::string layer = layerOf(run.lines[next].action);
             if (!layer.empty() && !readsLayer(document.scene(), layer) && unread.insert(layer).second)
-                warn(file + ":" + std::to_string(run.lines[next].number) + ": no grammar reads the layer '" + layer +
-                     "'");
+                warn(at + "no grammar reads the layer '" + layer + "'");
             if (!document.perform(run.lines[next].action, error, run.lines[next].gesture)) {
                 error = "frame " + std::to_string(frame) + ", line " + std::to_string(run.lines[next].number) + ": " +
                         error;
                 return false;
             }
+            mistakes.tell(document.scene(), at);
         }
         const std::string of = "frame " + std::to_string(frame) + ": ";
         if (espUpdate(film.context) != ESP_OK) {
@@ -287,6 +314,8 @@ int run(Options options) {
                                  ? "; " + options.replay + ":1 names it, FILE takes its place"
                                  : ""));
     for (const std::string& note : document.scene().notes) warn(note);
+    Mistakes mistakes;
+    mistakes.tell(document.scene(), "");
     if (espUpdate(made) != ESP_OK) return fail(espLastError(made));
 
     Scene scene = document.scene();
@@ -302,7 +331,7 @@ int run(Options options) {
             return fail("--export: this scene has no layer '" + asked.layer + "'");
     if (!film.begin(error)) return fail(error);
     uint32_t taken = replays ? 0 : options.frames;
-    if (!(replays ? filmRun(recorded, options.replay, options.every, document, film, taken, error)
+    if (!(replays ? filmRun(recorded, options.replay, options.every, document, film, mistakes, taken, error)
                   : filmTurn(scene, options.frames, film, error)))
         return fail(replays ? options.replay + ": " + error : error);
     for (const LayerFile& asked : options.exports)

@@ -119,7 +119,9 @@ Work::Plan exporting(const Document& document, const std::string& layer, bool to
 }
 
 bool exportLayer(const Document& document, const std::string& layer, const std::string& path, std::string& error) {
-    return Work(exporting(document, layer, false, path)).finish(error);
+    const scene::Scene& scene = document.scene();
+    const bool town = scene::isTownsAlone(document.context(), scene, channelsOf(scene, layer)[0]);
+    return Work(exporting(document, layer, town, path)).finish(error);
 }
 
 Work::Plan importing(Document& document, const std::string& layer, bool town, const std::string& path,
@@ -140,7 +142,7 @@ Work::Plan importing(Document& document, const std::string& layer, bool town, co
             if (p.picture && !document.perform(load, error, gesture)) return false;
             const std::string said = describe(p, sideOf(document, channelsOf(document.scene(), layer)[0], town, i));
             p.picture.reset();
-            *note += (note->empty() || said.empty() ? "" : "\n") + said;
+            *note += (note->empty() || said.empty() ? "" : "; ") + said;
             return true;
         });
     }
@@ -153,7 +155,9 @@ Work::Plan importing(Document& document, const std::string& layer, bool town, co
 
 bool importLayer(Document& document, const std::string& layer, const std::string& path, uint32_t gesture,
                  std::string& note, std::string& error) {
-    Work work(importing(document, layer, false, path, gesture));
+    const scene::Scene& scene = document.scene();
+    const bool town = scene::isTownsAlone(document.context(), scene, channelsOf(scene, layer)[0]);
+    Work work(importing(document, layer, town, path, gesture));
     const bool good = work.finish(error);
     note = work.note();
     return good;

@@ -47,6 +47,7 @@ class Recorder {
     // `error` tells that some of the run isn't in the file.
     bool end(std::string& error);
     bool on() const { return file_ != nullptr; }
+    bool failed() const { return failed_ != 0; }  // a line couldn't be written, so none is any more
     uint32_t frame() const { return frame_; }
 
   private:
