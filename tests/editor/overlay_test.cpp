@@ -70,6 +70,7 @@ TEST_CASE("figures tell the latest growth alone, memory in use and taken, and wh
     const Folder folder;
     Editor editor(folder, smallScene(folder), Tool::look);
     auto& work = editor.work;
+    work.layout.figures = true;
     std::string words;
     editor.panels = [&] { words = wordsOf([&] { sample::showFigures(work, 0, false); }); };
     work.stats.expandMs = 40, work.roofs.expandMs = 500;

@@ -249,6 +249,23 @@ TEST_CASE("a plant that is frozen right after an edit is the one that the edit m
     CHECK(frozen(false) == frozen(true));
 }
 
+TEST_CASE("a recording that can't be written any more ends at once, which is told then and at the end") {
+    const Folder folder;
+    Window window(folder, smallScene(folder));
+    begin(window, "/dev/full");
+    REQUIRE(window.session.recording());
+    window.session.nextFrame(window.work);
+    CHECK(!window.session.recording());
+    CHECK_MESSAGE(contains(window.work.error, "/dev/full: "), window.work.error);
+    CHECK_MESSAGE(contains(window.work.error, "No space left"), window.work.error);
+    REQUIRE(window.work.perform(FillLayer{"mask", .5f}));
+    CHECK(window.work.error.empty());
+    window.session.nextFrame(window.work);
+    CHECK(window.work.error.empty());
+    window.session.end(window.work);
+    CHECK_MESSAGE(contains(window.work.error, "No space left"), window.work.error);
+}
+
 TEST_CASE("a letter that isn't UTF-8 ends neither a recording nor keeps anybody from saving") {
     const Folder folder;
     const std::string path = folder.file("run.jsonl");

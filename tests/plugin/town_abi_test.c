@@ -150,6 +150,13 @@ static void houses(EspContext* context) {
     change.slope = -1;
     REFUSED(espSetHouse(context, 3, &change));
     change.slope = 1;
+    edge.edge = 4;
+    REFUSED(espSetHouse(context, 3, &change));
+    CHECK(strstr(espLastError(context), "edge"));
+    edge.edge = 1;
+    edge.gable = 5;
+    REFUSED(espSetHouse(context, 3, &change));
+    edge.gable = 0;
     change.cornerCount = 2;
     REFUSED(espSetHouse(context, 3, &change));
     REFUSED(espSetHouse(context, kHouses, &change));

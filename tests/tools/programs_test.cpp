@@ -58,6 +58,15 @@ TEST_CASE("layers that no grammar of a scene reads are warned of, and aren't the
     const Ran replayed = run(capture + " --replay " + folder.file("run.jsonl"));
     CHECK_MESSAGE(replayed.code == 0, replayed.output);
     CHECK_MESSAGE(contains(replayed.output, "run.jsonl:2: no grammar reads the layer 'msak'"), replayed.output);
+    folder.write("text.jsonl", R"({"espalier_run": 1, "scene": "scene.json", "width": 64, "height": 36, "step": 0.1}
+{"frame": 0, "text": {"grammar": 0, "text": "Ivy -> Marching(1,", "params": []}}
+{"frame": 1, "undo": {}}
+)");
+    const Ran mistaken = run(capture + " --replay " + folder.file("text.jsonl"));
+    CHECK_MESSAGE(mistaken.code == 0, mistaken.output);
+    CHECK_MESSAGE(contains(mistaken.output, "text.jsonl:2: "), mistaken.output);
+    CHECK_MESSAGE(contains(mistaken.output, "ivy_free.grammar:1:"), mistaken.output);
+    CHECK_MESSAGE(!contains(mistaken.output, "text.jsonl:3: "), mistaken.output);
     CHECK(!contains(replayed.output, "run.jsonl:3"));
     CHECK(!contains(replayed.output, "'mask'"));
 }
@@ -185,7 +194,9 @@ TEST_CASE("grammars, layers and options with mistakes") {
     refuses(capture + "--size 0x10", folder, {"--size"});
     refuses(capture + "--size 10", folder, {"--size"});
     refuses(capture + "--view nothing", folder, {"--view"});
-    refuses(capture + "--camera 1,2,3", folder, {"--camera"});
+    for (const char* camera :
+         {"1,2,3", "1,2,3,1,2,4,x", "1,2,3,1,2,4x", "1,2,3,1,2,4,", "1,2,3,1,2,4,50x", ",1,2,3,1,2,4"})
+        refuses(capture + "--camera " + camera, folder, {"--camera"});
     refuses(capture + "--frames 0", folder, {"--frames"});
     // A picture of a size that nobody can mean.
     const Ran wide = run("convert -size 9000x1 xc:white " + folder.file("wide.png"));

@@ -1,6 +1,7 @@
 // Towns as scenes show them: among plants, turned and moved, on ground.
 #include <doctest/doctest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "tests/tools/program.hpp"
@@ -28,4 +29,23 @@ TEST_CASE("a scene shows ivy and houses, and a town without a surface is a scene
     CHECK(wrong.output.find("wrong.json:1:44: 'grammar' must be a place in the list of grammars, from 0") !=
           std::string::npos);
     CHECK(wrong.output.find("'ground' must be true, false or a colour") != std::string::npos);
+}
+
+TEST_CASE("a layer that lies over roofs alone is exported as it is seen from above, and comes back") {
+    const Folder folder;
+    const auto exported = [&](const std::string& scene, const std::string& name, const std::string& more) {
+        const Ran ran = run(program("espalier-capture") + " " + content(scene.c_str()) + " --size 64x36 -o " +
+                            folder.file("frames") + more + " --export moss=" + folder.file(name));
+        REQUIRE_MESSAGE(ran.code == 0, ran.output);
+        return folder.file(name);
+    };
+    const std::string moss = exported("weathered.json", "moss.png", ""), none = exported("town.json", "none.png", "");
+    const std::string again = exported("town.json", "again.png", " --layer moss=" + moss);
+    const std::string compare = program("espalier-compare") + " --tolerance 0 --share 1 ";
+    CHECK(run(compare + moss + " " + none).code == 1);
+    CHECK(run(compare + moss + " " + again).code == 0);
+    // Beside surfaces it is still the town's: one picture.
+    exported("sample.json", "sample.png", " --layer moss=" + moss + " --max-nodes 2000");
+    CHECK(run(compare + folder.file("sample.png") + " " + none).code != 0);
+    CHECK(!std::filesystem::exists(folder.file("sample-1.png")));
 }
