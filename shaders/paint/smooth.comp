@@ -16,22 +16,32 @@ layout(binding = 0, scalar) uniform Stroke {
 };
 #include "shaders/paint/place.glsl"
 
+// Of several values: a mean is rounded, but lies between them, and is what all of them are.
+struct Mean {
+    float sum, weight, low, high;
+};
+Mean noMean() { return Mean(0.0, 0.0, 3e38, -3e38); }
+void take(inout Mean m, float value, float weight) {
+    m.sum += value * weight;
+    m.weight += weight;
+    m.low = value < m.low ? value : m.low;
+    m.high = value > m.high ? value : m.high;
+}
+float taken(Mean m) { return limited(m.sum * rcpExact(m.weight), m.low, m.high); }
+
 // Bilinear over the inner texels around a place; false where there is none.
 bool between(uint place, out float value) {
     vec2 g = (vec2(place & 0xFFFFu, place >> 16u) + 0.5) * (float(env.size) * (1.0 / 65536.0)) - 0.5;
     uvec2 low = uvec2(inRange(g.x, float(env.size) - 2.0), inRange(g.y, float(env.size) - 2.0));
     vec2 f = vec2(limited(g.x - float(low.x), 0.0, 1.0), limited(g.y - float(low.y), 0.0, 1.0));
-    float sum = 0.0;
-    float weight = 0.0;
+    Mean m = noMean();
     for (uint k = 0u; k < 4u; ++k) {
         uint i = texelIndex(env.size, low.x + (k & 1u), low.y + (k >> 1u));
         float w = ((k & 1u) != 0u ? f.x : 1.0 - f.x) * (k >> 1u != 0u ? f.y : 1.0 - f.y) + 1e-3;
-        if (texelClass(env.texels.v[i].bits) != kTexelInner) continue;
-        sum += env.layer.v[i] * w;
-        weight += w;
+        if (texelClass(env.texels.v[i].bits) == kTexelInner) take(m, env.layer.v[i], w);
     }
-    value = sum * rcpExact(weight);
-    return weight > 0.0;
+    value = taken(m);
+    return m.weight > 0.0;
 }
 
 // The texel that holds a place; at a border a gutter texel, which stands for what is beyond.
@@ -44,8 +54,7 @@ float meanOf(uint from, float value) {
     // Texels of a block lie in rows of 8.
     if (first >= kPlacesOfQuad && first != kNoPlace)
         from = (from & ~9u) + ((first & 1u) != 0u ? 1u : 0u) + ((first & 2u) != 0u ? 8u : 0u);
-    float sum = 0.0;
-    float count = 0.0;
+    Mean m = noMean();
     for (uint k = 0u; k < kSmoothPlaces; ++k) {
         uint place = env.places.v[from + k * kBlockTexels];
         if (place == kNoPlace) continue;
@@ -54,10 +63,9 @@ float meanOf(uint from, float value) {
             there = nearest(place);
         else if (!between(place, there))
             continue;
-        sum += there;
-        count += 1.0;
+        take(m, there, 1.0);
     }
-    return count > 0.0 ? sum * rcpExact(count) : value;
+    return m.weight > 0.0 ? taken(m) : value;
 }
 
 void main() {

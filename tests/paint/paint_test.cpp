@@ -289,6 +289,32 @@ TEST_CASE("smoothing far is as even as smoothing near: over a seam as inside a c
     for (size_t i = 0; i < inside.size(); ++i) CHECK(over[i] == doctest::Approx(inside[i]).scale(1).epsilon(.06));
 }
 
+TEST_CASE("smoothing leaves what is even as it is, to the bit, and goes nowhere beyond what was there") {
+    Painting painting(cube(2), 256);
+    for (const float radius : {.04f, .7f}) {
+        CAPTURE(radius);
+        EspBrush brush = brushOn("paint", radius, 1, .5f);
+        brush.mode = ESP_BRUSH_SMOOTH;
+        for (const float value : {.1f, .3f, .7f, 1.f}) {
+            CAPTURE(value);
+            EspStroke fill{};
+            painting.ok(espFillLayer(painting.context, "paint", value, &fill));
+            const std::vector<float> even = painting.layer("paint");
+            const EspStroke stroke = painting.stroke(brush, std::vector<EspDab>(6, dabAt({1, 1, 0})));
+            CHECK(painting.layer("paint") == even);
+            CHECK(espStrokeBytes(painting.context, stroke) == 0);
+        }
+        EspStroke clear{};
+        painting.ok(espFillLayer(painting.context, "paint", .2f, &clear));
+        painting.stroke(brushOn("paint", .9f * radius, 1, 1), {dabAt({1, 1, 0}), dabAt({1, .9f, .1f})});
+        painting.stroke(brush, std::vector<EspDab>(20, dabAt({1, 1, 0})));
+        const std::vector<float> soft = painting.layer("paint");
+        CHECK(*std::max_element(soft.begin(), soft.end()) <= 1);
+        for (size_t i = 0; i < soft.size(); ++i)
+            if (soft[i] > 0) REQUIRE(soft[i] >= .2f);
+    }
+}
+
 TEST_CASE("smoothing lowers what stands out, on both sides of a seam alike, and keeps what is even") {
     for (const Model& model : {cube(2), cubeCross(2)}) {
         Painting painting(model, 256);
