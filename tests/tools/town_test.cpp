@@ -49,3 +49,25 @@ TEST_CASE("a layer that lies over roofs alone is exported as it is seen from abo
     CHECK(run(compare + folder.file("sample.png") + " " + none).code != 0);
     CHECK(!std::filesystem::exists(folder.file("sample-1.png")));
 }
+
+TEST_CASE("a house that a run has changed is drawn as that of a scene which opens like that, to the bit") {
+    const Folder folder;
+    const auto scene = [&](const char* name, const std::string& houses) {
+        folder.write(name, R"({"town": {"file": "town.json")" + houses + R"(}, "grammars": [{"file": ")" +
+                               content("grammars/town.grammar") +
+                               R"("}], "camera": {"eye": [-4, 4, 9], "target": [2, 1.5, -3], "fov": 45}})");
+    };
+    folder.write("town.json", R"({"buildings": [{"id": "a", "outer": [[0,0],[5,0],[5,5],[0,5]]}]})");
+    scene("plain.json", "");
+    scene("changed.json", R"(, "houses": [{"house": 0, "shape": "gable", "slope": 1, "eave_height": 6}])");
+    folder.write("run.jsonl", R"({"espalier_run": 1, "scene": "plain.json", "width": 320, "height": 180, "step": 0.1}
+{"frame": 1, "house": {"house": 0, "shape": "gable", "slope": 1, "eave_height": 6, "edges": [], "corners": [], "rings": [], "look": {"covering": "any", "colour": [], "overhang": 0, "chimneys": "any"}}}
+)");
+    const std::string capture = program("espalier-capture");
+    const Ran ran = run(capture + " --replay " + folder.file("run.jsonl") + " -o " + folder.file("run"));
+    REQUIRE_MESSAGE(ran.code == 0, ran.output);
+    const Ran opened = run(capture + " --size 320x180 " + folder.file("changed.json") + " -o " + folder.file("opened"));
+    REQUIRE_MESSAGE(opened.code == 0, opened.output);
+    CHECK(readAll(folder.file("run/frame_0001.png")) == readAll(folder.file("opened/frame_0000.png")));
+    CHECK(readAll(folder.file("run/frame_0000.png")) != readAll(folder.file("opened/frame_0000.png")));
+}

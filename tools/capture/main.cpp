@@ -270,6 +270,7 @@ bool filmRun(const Run& run, const std::string& file, uint32_t every, Document& 
         }
         if (frame % every && frame + 1 < frames) continue;
         film.draw.camera = document.scene().camera;
+        film.draw.camera.nearPlane = espFrameAll(film.context).nearPlane;  // as of a scene that is opened like this
         film.draw.look = document.scene().look;
         film.draw.look.viewLayer = document.scene().viewLayer.c_str();
         if (!film.take(frame, error)) {
