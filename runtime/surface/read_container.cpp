@@ -78,10 +78,11 @@ Container::Container(std::vector<std::byte> file, bool partial) : file_(std::mov
 }
 
 const json& Container::walk() const {
-    const json& all = at(root_, "extensions", "glTF");
-    if (!all.is_object() || !all.contains(kExtension))
-        fail("glTF", "not a baked surface: " + std::string(kExtension) + " is missing");
-    return all[kExtension];
+    const auto all = root_.find("extensions");
+    if (all == root_.end() || !all->is_object() || !all->contains(kExtension))
+        fail("glTF", "not a baked surface, which espalier-bake makes of a model: " + std::string(kExtension) +
+                         " is missing");
+    return (*all)[kExtension];
 }
 
 std::span<const std::byte> Container::view(uint64_t index, const std::string& place) const {

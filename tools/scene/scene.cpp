@@ -96,8 +96,14 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     // What is named from there stays what it is, wherever the program is told to work later.
     request.file = absolutePath(request.file).string();
     if (!request.grammar.empty()) request.grammar = absolutePath(request.grammar).string();
-    if (fs::is_directory(request.file, ignored) && fs::exists(fs::path(request.file) / "project.json", ignored))
-        request.file = (fs::path(request.file) / "project.json").string();
+    if (fs::is_directory(request.file, ignored)) {
+        const fs::path project = fs::path(request.file) / "project.json";
+        if (!fs::exists(project, ignored)) {
+            error = request.file + ": is a folder without a project.json, so no project";
+            return false;
+        }
+        request.file = project.string();
+    }
     out = Scene{};
     out.name = lastPart(asked.file);
     out.ownLook = espDefaultLook();
