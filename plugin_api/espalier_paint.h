@@ -90,7 +90,7 @@ ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre in radius, h
 /* Several strokes may be open at a time, on unlike layers. */
 ESP_API EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out);
 /* On the GPU, applied in order; the next espUpdate and espDraw see it. At most 65,536 dabs. They go 32 together: where
- * memory runs out, those before are painted, and the stroke's record knows of them. */
+ * memory runs out, surfaces have those before, a town's layer may have all, and the stroke's record knows of them. */
 ESP_API EspResult espStrokeDabs(EspContext* context, EspStroke stroke, const EspDab* dabs, uint32_t count);
 /* Waits for the GPU and keeps only the blocks that changed, or all that it has come to where memory is short. */
 ESP_API EspResult espEndStroke(EspContext* context, EspStroke stroke);

@@ -32,21 +32,19 @@ std::string named(const Workspace& work, bool town, const std::string& file) {
 
 void importFrom(Workspace& work, Session& session, bool town, const std::string& file) {
     const uint32_t gesture = work.newGesture();
-    session.background().ask({"Importing " + file,
-                              [&work, layer = dialogues().layer, town, file, gesture] {
-                                  return importing(*work.document, layer, town, file, gesture);
-                              },
-                              [&work, town, file](const Work& over) {
-                                  const std::string note = over.note();
-                                  tell(work, over,
-                                       "Read: " + named(work, town, file) + (note.empty() ? "" : " (" + note + ")"));
-                              }});
+    session.background().ask(
+        {"Importing " + file,
+         [&work, layer = dialogues().layer, file, gesture] { return importing(*work.document, layer, file, gesture); },
+         [&work, town, file](const Work& over) {
+             const std::string note = over.note();
+             tell(work, over, "Read: " + named(work, town, file) + (note.empty() ? "" : " (" + note + ")"));
+         }});
 }
 
 void exportTo(Workspace& work, Session& session, bool town, const std::string& file) {
     const std::string layer = dialogues().layer;
     session.background().ask(
-        {"Exporting " + layer, [&work, layer, town, file] { return exporting(*work.document, layer, town, file); },
+        {"Exporting " + layer, [&work, layer, file] { return exporting(*work.document, layer, file); },
          [&work, town, file](const Work& over) { tell(work, over, "Written: " + named(work, town, file)); }});
 }
 

@@ -266,6 +266,7 @@ void Session::startRecording(Workspace& work, const std::string& path, uint32_t 
 bool Session::record(Workspace& work, const std::string& path, RunHead head) {
     if (!recorder_.begin(path, std::move(head), work.error)) return false;
     recordingTo_ = path;
+    lostRun_.clear();
     const EspCamera camera = work.camera.camera();
     const auto& look = work.scene().look;
     if (look.view != ESP_VIEW_SHADED) work.perform(SetView{espalier::scene::nameOf(look.view), work.scene().viewLayer});

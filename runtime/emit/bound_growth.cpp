@@ -39,30 +39,29 @@ Result<BoundGrowth> BoundGrowth::create(Device& device, const Terminals& termina
     BoundGrowth out;
     out.device_ = &device;
     out.terminals_ = &terminals;
-    const ProgramOptions exact{.exact = true, .constants = {}};
     const auto fetching = [](bool fetches, bool bitwise) {
         return ProgramOptions{.exact = bitwise, .constants = {{3, fetches ? 0u : 1u}}};
     };
     Status programs =
-        makeKernels(device, {{out.spans_[0], "emit/bind_spans.comp", fetching(false, true)},
-                             {out.spans_[1], "emit/bind_spans.comp", fetching(true, true)},
-                             {out.leaves_[0], "emit/bind_leaves.comp", fetching(false, true)},
-                             {out.leaves_[1], "emit/bind_leaves.comp", fetching(true, true)},
-                             {out.touch_[0], "emit/bind_touch.comp", fetching(false, false)},
-                             {out.touch_[1], "emit/bind_touch.comp", fetching(true, false)},
-                             {out.stretches_, "emit/bind_stretches.comp", exact},
-                             {out.keep_, "emit/bind_keep.comp", {.constants = {{5, cellLanes(device)}}}},
-                             {out.count_, "emit/bind_count.comp", exact},
-                             {out.cellsOf_, "emit/bind_cells.comp"},
-                             {out.order_, "emit/bind_order.comp"},
-                             {out.sort_, "emit/bind_sort.comp", {.constants = {{5, sortLanes(device)}}}}});
+        makeCompute(device, {{out.bindSpans_[0], "emit/bind_spans.comp", fetching(false, true)},
+                             {out.bindSpans_[1], "emit/bind_spans.comp", fetching(true, true)},
+                             {out.bindLeaves_[0], "emit/bind_leaves.comp", fetching(false, true)},
+                             {out.bindLeaves_[1], "emit/bind_leaves.comp", fetching(true, true)},
+                             {out.bindTouch_[0], "emit/bind_touch.comp", fetching(false, false)},
+                             {out.bindTouch_[1], "emit/bind_touch.comp", fetching(true, false)},
+                             {out.bindStretches_, "emit/bind_stretches.comp", exactly()},
+                             {out.bindKeep_, "emit/bind_keep.comp", {.constants = {{5, cellLanes(device)}}}},
+                             {out.bindCount_, "emit/bind_count.comp", exactly()},
+                             {out.bindCells_, "emit/bind_cells.comp"},
+                             {out.bindOrder_, "emit/bind_order.comp"},
+                             {out.bindSort_, "emit/bind_sort.comp", {.constants = {{5, sortLanes(device)}}}}});
     if (!programs) return programs.failure();
     Status made[] = {makeRoom(device, out.cells_, "emit cells", (kAllCells + 1) * sizeof(EmitCell)),
                      makeRoom(device, out.bins_, "emit bins", kAllCells * kCellBins * 4ull),
                      makeRoom(device, out.noTexels_, "emit no texels", 16)};
     for (Status& s : made)
         if (!s) return s.failure();
-    for (Buffer& given : out.given_)
+    for (Buffer& given : out.inputs_)
         if (Status s = makeRoom(device, given, "bind inputs", sizeof(BindInputs)); !s) return s.failure();
     return out;
 }

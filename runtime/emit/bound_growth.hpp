@@ -95,13 +95,13 @@ class BoundGrowth {
 
     Device* device_ = nullptr;
     const Terminals* terminals_ = nullptr;
-    std::array<Program, 2> touch_, spans_, leaves_;  // [1] fetches records as texels
-    Program stretches_, keep_, count_, cellsOf_, order_, sort_;
+    std::array<Program, 2> bindTouch_, bindSpans_, bindLeaves_;  // [1] fetches records as texels
+    Program bindStretches_, bindKeep_, bindCount_, bindCells_, bindOrder_, bindSort_;
     struct Carrying {
         Program spans, leaves, cells;
     };
     std::array<Carrying, 2> carrying_;  // [1] to other numbers; made when first asked for
-    std::array<Buffer, 8> given_;       // that recordings in flight may still read
+    std::array<Buffer, 8> inputs_;      // that recordings in flight may still read
     Held held_;
     Buffer spareOrder_;  // that the last carrying left
     Buffer cells_, bins_;
@@ -114,7 +114,7 @@ class BoundGrowth {
     uint64_t boundBy_ = 0, usedBy_ = 0;  // the recordings that bound it and that looked at it last
     uint64_t version_ = 1, wholeBindings_ = 0, carries_ = 0;
     bool fetches_ = false, fetchesTouched_ = false;
-    uint32_t overflow_ = 0, slot_ = 0;
+    uint32_t overflow_ = 0, inputSlot_ = 0;
 };
 
 }  // namespace espalier

@@ -1,5 +1,9 @@
 // Enters: what is to be bound, growth or what an edit has touched of it. Leaves: the kernels' passes that bind it.
 #include "runtime/emit/bound_growth.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
 #include "runtime/emit/cell_lanes.hpp"
 
 namespace espalier {
@@ -36,7 +40,7 @@ Status BoundGrowth::viewRecords(const GrowthView& growth, uint32_t nodesBefore) 
 Status BoundGrowth::bindByKernels(Commands& commands, const GrowthView& growth, const TileWatch& watch,
                                   const BindInputs& given) {
     if (Status s = viewRecords(growth, given.nodesBefore); !s) return s;
-    const Buffer& in = given_[slot_++ % given_.size()];
+    const Buffer& in = inputs_[inputSlot_++ % inputs_.size()];
     Pass pass(commands, "bind");
     commands.barrier(Use::compute | Use::vertex, Use::transfer | Use::compute);
     if (Status s = commands.upload(in, std::as_bytes(std::span(&given, 1))); !s) return s;
@@ -58,7 +62,7 @@ void BoundGrowth::dispatchBinding(Pass& pass, const TileWatch& watch, const Bind
     const uint32_t nodes = given.nodeCount, leaves = given.leafCount;
     const Buffer& table = terminals_->tableBuffer();
     if (partly) {
-        pass.dispatchItems(touch_[fetchesTouched_], std::max(nodes / 4 + 1, kAllCells), {}, {touchedRecords_, in});
+        pass.dispatchItems(bindTouch_[fetchesTouched_], std::max(nodes / 4 + 1, kAllCells), {}, {touchedRecords_, in});
         pass.barrier(Use::compute, Use::compute);
     }
     // Kernels go through what there is to do in strides: how much that is, a part's are the first to know.
@@ -66,26 +70,26 @@ void BoundGrowth::dispatchBinding(Pass& pass, const TileWatch& watch, const Bind
         return std::array<uint32_t, 3>{partly ? 64u : std::min(items / 64 + 1, 65535u), 1, 1};
     };
     // The lookup knows branches too, which nobody asks for here.
-    pass.dispatch(spans_[fetches_], groupsFor(nodes), {},
+    pass.dispatch(bindSpans_[fetches_], groupsFor(nodes), {},
                   {table, nodeRecords_, chunkRecords_, chunkRecords_, watch.record(), in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(stretches_, groupsFor(nodes), {}, {table, held_.spanTexels, in});
+    pass.dispatch(bindStretches_, groupsFor(nodes), {}, {table, held_.spanTexels, in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(leaves_[fetches_], groupsFor(leaves), {},
+    pass.dispatch(bindLeaves_[fetches_], groupsFor(leaves), {},
                   {table, leafRecords_, held_.spanTexels, watch.record(), in});
     pass.barrier(Use::compute, Use::compute);
     if (partly) {
-        pass.dispatchItems(keep_, kAllCells * cellLanes(*device_), {}, {in});
+        pass.dispatchItems(bindKeep_, kAllCells * cellLanes(*device_), {}, {in});
         pass.barrier(Use::compute, Use::compute);
     }
     const std::array<uint32_t, 3> groups = groupsFor(std::min(nodes + leaves, 4095u * 64));
-    pass.dispatch(count_, groups, {}, {table, held_.spanTexels, held_.leafTexels, in});
+    pass.dispatch(bindCount_, groups, {}, {table, held_.spanTexels, held_.leafTexels, in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(cellsOf_, kAllCells + 1, {}, {in});
+    pass.dispatchItems(bindCells_, kAllCells + 1, {}, {in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(order_, groups, {}, {in});
+    pass.dispatch(bindOrder_, groups, {}, {in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(sort_, kAllCells * sortLanes(*device_), {}, {held_.spanTexels, held_.leafTexels, in});
+    pass.dispatchItems(bindSort_, kAllCells * sortLanes(*device_), {}, {held_.spanTexels, held_.leafTexels, in});
     pass.barrier(Use::compute, Use::compute | Use::vertex);
 }
 

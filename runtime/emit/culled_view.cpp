@@ -31,7 +31,7 @@ Result<CulledView> CulledView::create(Device& device, const Terminals& terminals
     out.device_ = &device;
     out.terminals_ = &terminals;
     const ProgramOptions lanes{.constants = {{5, cellLanes(device)}}};
-    Status programs = makeKernels(device, {{out.cullCells_, "emit/cull_cells.comp"},
+    Status programs = makeCompute(device, {{out.cullCells_, "emit/cull_cells.comp"},
                                            {out.listBlocks_, "emit/list_blocks.comp"},
                                            {out.listItems_, "emit/list_items.comp", lanes},
                                            {out.classifySpans_, "emit/classify_spans.comp", lanes},

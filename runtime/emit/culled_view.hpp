@@ -3,6 +3,7 @@
 // What of bound growth a view sees.
 
 #include <array>
+#include <string_view>
 
 #include "runtime/emit/bound_growth.hpp"
 #include "runtime/emit/native_cull.hpp"
@@ -35,7 +36,8 @@ class CulledView {
     const TexelView& drawnTexels() const { return culledNative() ? natives_[native_].drawnTexels : drawnTexels_; }
 
     // Of the last counted cull that has finished. Binding reads there whether cells had room.
-    EmitState& counts() const { return *reinterpret_cast<EmitState*>(readback_.mapped()); }
+    const EmitState& counts() const { return *reinterpret_cast<const EmitState*>(readback_.mapped()); }
+    EmitState& counts() { return *reinterpret_cast<EmitState*>(readback_.mapped()); }
 
     // What was culled is lost, and the room for it.
     void drop();

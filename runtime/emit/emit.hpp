@@ -2,6 +2,9 @@
 
 // Emission: growth's records -> what is to be drawn from one point of view, or triangles on request.
 
+#include <string_view>
+#include <vector>
+
 #include "runtime/emit/triangle_writer.hpp"
 
 namespace espalier {

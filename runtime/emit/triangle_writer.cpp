@@ -2,7 +2,6 @@
 // strip of quads, a thread a leaf write whole runs; on software devices native code writes the bark.
 #include "runtime/emit/triangle_writer.hpp"
 
-#include <algorithm>
 #include <chrono>
 
 #include "runtime/emit/native_triangles.hpp"
@@ -28,10 +27,9 @@ Result<TriangleWriter> TriangleWriter::create(Device& device, const Terminals& t
     TriangleWriter out;
     out.device_ = &device;
     out.terminals_ = &terminals;
-    Status programs =
-        makeKernels(device, {{out.barkVertices_, "emit/bark_vertices.comp", {.exact = true, .constants = {}}},
-                             {out.barkIndices_, "emit/bark_indices.comp"},
-                             {out.looseTriangles_, "emit/loose_triangles.comp"}});
+    Status programs = makeCompute(device, {{out.barkVertices_, "emit/bark_vertices.comp", exactly()},
+                                           {out.barkIndices_, "emit/bark_indices.comp"},
+                                           {out.looseTriangles_, "emit/loose_triangles.comp"}});
     if (!programs) return programs.failure();
     return out;
 }

@@ -72,8 +72,8 @@ Status GrowthKernels::make(std::initializer_list<GrowthKernel> kernels, const Gr
         if (row.constants & kSurfaces) constants.push_back({1, access.surfacesAsTexels ? 0u : 1u});
         if (row.constants & kFeatureSet) constants.push_back({2, features_});
         if (row.constants & kRecords) constants.push_back({3, access.recordsAsTexels ? 0u : 1u});
-        const ProgramOptions options{.exact = true, .constants = std::move(constants)};
-        if (Status s = makeKernels(device_, {{program, row.shader, options, kExpandGroup}}); !s) return s;
+        Status made = makeCompute(device_, {{program, row.shader, exactly(std::move(constants)), kExpandGroup}});
+        if (!made) return made;
     }
     return Done{};
 }

@@ -225,8 +225,8 @@ Result<Program> Program::graphics(Device& device, const GraphicsDesc& desc) {
     return p;
 }
 
-Status makeKernels(Device& device, std::initializer_list<Kernel> kernels) {
-    for (const Kernel& kernel : kernels) {
+Status makeCompute(Device& device, std::initializer_list<ComputeDesc> kernels) {
+    for (const ComputeDesc& kernel : kernels) {
         Result<Program> made = Program::compute(device, kernel.shader, kernel.options);
         if (!made) return made.failure();
         if (kernel.groupItems != 0)

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,9 @@ struct ProgramOptions {
     bool exact = false;
     std::vector<SpecConstant> constants;
 };
+inline ProgramOptions exactly(std::vector<SpecConstant> constants = {}) {
+    return {true, std::move(constants)};
+}
 
 enum class Blend { none, additive };
 
@@ -93,13 +97,13 @@ class Program {
 };
 
 // A compute program to be made, and where it goes.
-struct Kernel {
+struct ComputeDesc {
     Program& program;
     const char* shader;
     ProgramOptions options{};
     uint32_t groupItems = 0;  // its local size along x, where somebody relies on that; 0: any
 };
 // Fails with the first that fails.
-Status makeKernels(Device& device, std::initializer_list<Kernel> kernels);
+Status makeCompute(Device& device, std::initializer_list<ComputeDesc> kernels);
 
 }  // namespace espalier

@@ -4,7 +4,6 @@
 
 #include <cstring>
 
-#include "runtime/core/check.hpp"
 #include "shaders/paint/smooth_records.h"
 
 namespace espalier {
@@ -64,9 +63,8 @@ Result<Buffer> roomier(Commands& commands, const Buffer& before, const char* nam
 
 Result<std::unique_ptr<Painter>> Painter::create(Device& device) {
     std::unique_ptr<Painter> painter(new Painter(device));
-    const ProgramOptions exact{.exact = true, .constants = {}};
-    Status programs = makeKernels(device, {{painter->dabs_, "paint/dabs.comp", exact, kBlockTexels},
-                                           {painter->blocks_, "paint/blocks.comp", exact, kBlockTexels}});
+    Status programs = makeCompute(device, {{painter->dabs_, "paint/dabs.comp", exactly(), kBlockTexels},
+                                           {painter->blocks_, "paint/blocks.comp", exactly(), kBlockTexels}});
     if (!programs) return programs.failure();
     Status room = ensure(device, painter->stroke_, "paint stroke", sizeof(StrokeUniforms));
     if (!room) return room.failure();
@@ -193,10 +191,9 @@ Status Painter::fill(std::span<PaintJob> jobs, float value) {
 
 Status Painter::makeSmoothing() {
     if (smooth_) return Done{};
-    const ProgramOptions exact{.exact = true, .constants = {}};
-    return makeKernels(device_, {{places_, "paint/smooth_places.comp", exact},
-                                 {walk_, "paint/smooth_walk.comp", exact},
-                                 {smooth_, "paint/smooth.comp", exact}});
+    return makeCompute(device_, {{places_, "paint/smooth_places.comp", exactly()},
+                                 {walk_, "paint/smooth_walk.comp", exactly()},
+                                 {smooth_, "paint/smooth.comp", exactly()}});
 }
 
 // Dab by dab, since what one leaves the next one averages.

@@ -49,30 +49,32 @@ const char* mistakeIn(const EspHouseLook& look) {
 const char* mistakeIn(const EspHouseEdge& edge, uint32_t corners) {
     if (edge.edge >= corners) return "an edge is beyond the last";
     if (edge.gable < -1 || edge.gable > 1) return "an edge's gable is -1, 0 or 1";
-    if (!(edge.slope >= 0 && edge.slope < 100)) return "an edge's slope must be within 0 to 100";
+    if (!(edge.slope >= 0 && edge.slope <= 100)) return "an edge's slope must be within 0 to 100";
     return nullptr;
 }
 
-// corners: that edges count over, where none are given.
-const char* mistakeIn(const EspHouseDef& def, uint32_t corners) {
+// How many edges the house is to have: of the corners that are given, and of rings that stay.
+uint32_t edgesAsked(const EspHouseDef& def, const RoofHouse& house) {
+    uint32_t sum = def.corners ? def.cornerCount : 0;
+    for (size_t r = 0; r < house.rings.size(); ++r)
+        if (!def.corners || (def.ringCount == 0 && r > 0)) sum += uint32_t(house.rings[r].size());
+    return sum;
+}
+
+const char* mistakeIn(const EspHouseDef& def, const RoofHouse& house) {
     if (!isAmong(def.shape, ESP_ROOF_HIP, ESP_ROOF_FLAT)) return "no such shape";
-    if (!(def.slope >= 0 && def.slope < 100)) return "the slope must be within 0 to 100";
-    if (!(def.eaveHeight >= 0 && def.eaveHeight < 1000)) return "the eaves' height must be within 0 to 1000 m";
+    if (!(def.slope >= 0 && def.slope <= 100)) return "the slope must be within 0 to 100";
+    if (!(def.eaveHeight >= 0 && def.eaveHeight <= 1000)) return "the eaves' height must be within 0 to 1000 m";
     if (def.corners && (def.cornerCount < 3 || def.cornerCount > kMostCorners))
         return "an outline has 3 to 65536 corners";
     if (!ringsFit(def)) return "the rings aren't made of all corners, three or more each";
     for (uint32_t i = 0; def.corners && i < 2 * def.cornerCount; ++i)
         if (!std::isfinite(def.corners[i])) return "a corner is not finite";
-    if ((def.edgeCount && !def.edges) || def.edgeCount > kMostCorners) return "too many edges, or null";
+    if (def.edgeCount && !def.edges) return "the edges are null";
+    if (def.edgeCount > kMostCorners) return "more than 65536 edges";
     for (uint32_t i = 0; i < def.edgeCount; ++i)
-        if (const char* mistake = mistakeIn(def.edges[i], def.corners ? def.cornerCount : corners)) return mistake;
+        if (const char* mistake = mistakeIn(def.edges[i], edgesAsked(def, house))) return mistake;
     return def.look ? mistakeIn(*def.look) : nullptr;
-}
-
-uint32_t cornersOf(const auto& rings) {
-    uint32_t sum = 0;
-    for (const auto& ring : rings) sum += uint32_t(ring.size());
-    return sum;
 }
 
 const Footprint& footprintOf(const LoadedTown& town, uint32_t house) {
@@ -223,9 +225,7 @@ EspResult espSetHouse(EspContext* context, uint32_t index, const EspHouseDef* de
     return guarded(context, [&] {
         if (!houseOf(context, index) || !def)
             return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: no such house, or null");
-        const uint32_t corners =
-            std::max(cornersOf(houseOf(context, index)->rings), cornersOf(footprintOf(*context->town, index).rings));
-        if (const char* mistake = mistakeIn(*def, corners))
+        if (const char* mistake = mistakeIn(*def, *houseOf(context, index)))
             return fail(context, ESP_INVALID_ARGUMENT, std::string("espSetHouse: ") + mistake);
         const LoadedTown& town = *context->town;
         const HouseWish wish = wishOf(town.structure.houses[index], *def);

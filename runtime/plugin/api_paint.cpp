@@ -10,7 +10,6 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kMaxDabs = 1u << 16;  // of one call
-constexpr size_t kDabsTogether = 32;     // blocks that one of them reaches are gone through for each of them
 constexpr float kFarthestDab = 1e12f;    // metres: nothing lies so far away, and squares of distances are still floats
 constexpr float kMostReach = 16;         // texels: what a texel tells of borders ends a little farther out
 
@@ -33,27 +32,31 @@ EspResult makePainter(EspContext& context) {
     return ESP_OK;
 }
 
-// The farthest that a dab may reach in object space: the kernel, which measures in the world, rounds otherwise.
-float reachOf(const PlacedSurface& surface, std::span<const DabRecord> dabs, float radius) {
+// Where a dab lies in object space, and as far as it may reach there: the kernel, which measures in the world, rounds
+// otherwise.
+struct Reached {
+    glm::vec3 centre;
+    float radius;
+};
+std::vector<Reached> reachedBy(const PlacedSurface& surface, std::span<const DabRecord> dabs, float radius) {
     constexpr float kRounding = 1e-6f;  // of coordinates, some steps of a float
-    float farthest = radius;
-    for (const DabRecord& dab : dabs) farthest = std::max(farthest, glm::length(dab.position) + radius);
-    return (1.001f * radius + kRounding * farthest) / surface.scale;
+    std::vector<Reached> reached;
+    for (const DabRecord& dab : dabs)
+        reached.push_back({glm::vec3(surface.toObject * glm::vec4(dab.position, 1)),
+                           (1.001f * radius + kRounding * (glm::length(dab.position) + radius)) / surface.scale});
+    return reached;
 }
 
 // Of each block the texels that a dab may reach, bit 8 y + x.
 std::vector<uint64_t> texelsWithin(const PlacedSurface& surface, std::span<const uint32_t> blocks,
-                                   std::span<const DabRecord> dabs, float radius) {
-    const float reach = reachOf(surface, dabs, radius);
-    std::vector<glm::vec3> centres;
-    for (const DabRecord& dab : dabs) centres.push_back(surface.toObject * glm::vec4(dab.position, 1));
+                                   std::span<const Reached> dabs) {
     std::vector<uint64_t> within;
     for (uint32_t block : blocks) {
         const std::span texels = std::span(surface.data.levels.front().texels).subspan(size_t(block) * kBlockTexels);
         uint64_t& mask = within.emplace_back(0);
         for (uint32_t i = 0; i < kBlockTexels; ++i)
-            for (const glm::vec3& centre : centres)
-                if (glm::distance(texels[i].position, centre) < reach) mask |= uint64_t(1) << i;
+            for (const Reached& dab : dabs)
+                if (glm::distance(texels[i].position, dab.centre) < dab.radius) mask |= uint64_t(1) << i;
     }
     return within;
 }
@@ -118,9 +121,8 @@ EspResult paintSurfaces(EspContext& context, PaintStroke& stroke, std::span<cons
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
         if (roofsOnly && !paintedLayer(context, id, stroke.layer)) return;
         std::vector<uint32_t> blocks;
-        const float reach = reachOf(surface, dabs, stroke.radius);
-        for (const DabRecord& dab : dabs)
-            boundsOf(surface).near(glm::vec3(surface.toObject * glm::vec4(dab.position, 1)), reach, blocks);
+        for (const Reached& dab : reachedBy(surface, dabs, stroke.radius))
+            boundsOf(surface).near(dab.centre, dab.radius, blocks);
         std::ranges::sort(blocks);
         blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
         if (!blocks.empty()) touched.push_back({id, std::move(blocks)});
@@ -134,7 +136,8 @@ EspResult paintSurfaces(EspContext& context, PaintStroke& stroke, std::span<cons
         stroke.smooths ? smooth(context, jobs, stroke, dabs) : context.painter->dabs(jobs, stroke.brush, dabs);
     for (const auto& [id, blocks] : touched) {  // smoothing that failed may have come to some of the surfaces
         const PlacedSurface& surface = *context.surfaces.find(id);
-        layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, dabs, stroke.radius));
+        const std::vector<Reached> reached = reachedBy(surface, dabs, stroke.radius);
+        layerChanged(context, id, stroke.layer, blocks, texelsWithin(surface, blocks, reached));
     }
     untold.done();
     return painted ? ESP_OK : failGpu(&context, painted.failure());
@@ -152,8 +155,9 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
     }
     // What is for roofs alone makes no layers on surfaces that happen to be near.
     const bool roofsOnly = paintTown(context, stroke, records) && !plantsRead(context, stroke.layer);
-    for (size_t first = 0; first < records.size(); first += kDabsTogether) {
-        const size_t count = std::min(kDabsTogether, records.size() - first);
+    // Blocks that a dab reaches are gone through for all that come with it.
+    for (size_t first = 0; first < records.size(); first += kDabsAtOnce) {
+        const size_t count = std::min<size_t>(kDabsAtOnce, records.size() - first);
         if (EspResult bad = paintSurfaces(context, stroke, std::span(records).subspan(first, count), roofsOnly))
             return bad;
     }

@@ -29,7 +29,7 @@ EspSeed seedOf(const EspContext& context, const Plants& plants, uint32_t branch)
 EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, EspPlantHit* out) {
     const Plants* plants = readPlants(context);
     if (!plants) return gpuCode(context);
-    direction = glm::normalize(direction);
+    direction = unitOf(direction);
     // What a surface hides isn't picked; a stem lies on its surface, so a little behind it is not behind.
     const auto wall = pickSurfaces(context, origin, direction);
     const float slack = .05f;

@@ -99,6 +99,8 @@ PlantedSeed* find(const EspContext* context, EspSeed seed) {
 
 EspResult setNumber(EspContext& context, PlantedSeed& seed, uint32_t number, uint32_t twin) {
     if (number == seed.number && (twin == 0 || twin == seed.twin)) return ESP_OK;
+    if (twin > TwinTable::kMaxTwin)
+        return fail(&context, ESP_INVALID_ARGUMENT, "espSetSeedNumber: a twin is at most 1048576");
     uint32_t taken = 0;
     if (!context.twins.take(number, twin, taken))
         return fail(&context, ESP_INVALID_ARGUMENT,

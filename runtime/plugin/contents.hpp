@@ -117,8 +117,8 @@ struct GrammarVariant {
 // Which twins of which numbers are planted.
 class TwinTable {
   public:
-    // wanted: 0 for the first that is free. False: it is taken, or beyond 2^20.
     static constexpr uint32_t kMaxTwin = 1u << 20;
+    // wanted: 0 for the first that is free. False: it is taken, or beyond kMaxTwin.
     bool take(uint32_t number, uint32_t wanted, uint32_t& twin);
     void release(uint32_t number, uint32_t twin);
     size_t numbers() const { return numbers_.size(); }  // that are planted

@@ -211,6 +211,8 @@ struct SurfacePoint {
     float distance = 0;
     bool bare = false;  // nothing grows there
 };
+// v: of any length but 0, though its square be more, or less, than a float holds.
+glm::vec3 unitOf(glm::vec3 v);
 std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction);
 std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point);
 // About the nearest ground around a place on bare ground that is seen by who looks straight at it: not what lies behind

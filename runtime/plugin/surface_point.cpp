@@ -1,6 +1,7 @@
 // Rays and points in the world -> a place on a surface that a walk can start from.
 // The mesh tells position and walk UV; the chart is the one whose texel lies under that UV, or next to it where the
 // centre of that texel is outside of the triangle.
+#include <algorithm>
 #include <cmath>
 
 #include "runtime/plugin/context.hpp"
@@ -105,6 +106,10 @@ std::optional<SurfacePoint> groundBeside(const EspContext& context, const Surfac
     return std::nullopt;
 }
 
+glm::vec3 unitOf(glm::vec3 v) {
+    return glm::normalize(v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));
+}
+
 }  // namespace espalier
 
 using namespace espalier;
@@ -136,10 +141,8 @@ EspResult espPick(const EspContext* context, const float origin[3], const float 
         if (!origin || !direction || !out || !finite(origin) || !finite(direction) ||
             (direction[0] == 0 && direction[1] == 0 && direction[2] == 0))
             return fail(context, ESP_INVALID_ARGUMENT, "espPick: null pointer, or a ray that isn't one");
-        // Of any length: its square may be more, or less, than a float holds.
-        glm::vec3 along(direction[0], direction[1], direction[2]);
-        along = glm::normalize(along / std::max({std::abs(along.x), std::abs(along.y), std::abs(along.z)}));
-        const auto point = pickSurfaces(*context, {origin[0], origin[1], origin[2]}, along);
+        const auto point = pickSurfaces(*context, {origin[0], origin[1], origin[2]},
+                                        unitOf({direction[0], direction[1], direction[2]}));
         // Not logged: a ray that meets nothing is an answer.
         if (!point) return ESP_INVALID_ARGUMENT;
         fill(*point, out);

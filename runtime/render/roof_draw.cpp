@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "runtime/core/check.hpp"
 #include "runtime/emit/roof_triangles.hpp"
 #include "runtime/render/roof_profile.hpp"
 
@@ -29,7 +28,7 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
         for (TerminalLod& lod : v.lods)
             if (lod.pixels == 0) lod.error *= kErrorScale;
     const std::vector<RoofProfile> profiles = roofProfiles(meshes);
-    Result<Buffer> uploaded = makeBuffer(device, "roof profiles", std::as_bytes(std::span(profiles)));
+    Result<Buffer> uploaded = makeBuffer(device, "roof profiles", profiles);
     if (!uploaded) return uploaded.failure();
     out->profiles_ = std::move(*uploaded);
     Result<Terminals> terminals = Terminals::create(device, std::move(meshes));
@@ -56,11 +55,10 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
 
 Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
     // Exact, so that counting and writing decide alike, whatever a compiler makes of either.
-    const ProgramOptions exact{.exact = true, .constants = {}};
-    Status kernels = makeKernels(device, {{cullGrids_, "render/roof_cull_grids.comp", exact},
-                                          {cullRows_, "render/roof_cull_rows.comp", exact},
-                                          {scan_, "render/roof_scan.comp", exact},
-                                          {writeRows_, "render/roof_write_rows.comp", exact}});
+    Status kernels = makeCompute(device, {{cullGrids_, "render/roof_cull_grids.comp", exactly()},
+                                          {cullRows_, "render/roof_cull_rows.comp", exactly()},
+                                          {scan_, "render/roof_scan.comp", exactly()},
+                                          {writeRows_, "render/roof_write_rows.comp", exactly()}});
     if (!kernels) return kernels;
     struct Row {
         Program& program;

@@ -40,7 +40,7 @@ class RoofDraw {
     Device* device_ = nullptr;
     Terminals terminals_;
     std::vector<RoofMesh> bounds_;
-    Buffer profiles_;
+    Buffer profiles_;  // RoofProfile[kind * kProfileSteps + step]
     Program cullGrids_, cullRows_, scan_, writeRows_;
     Program tile_[kShadings], cutTile_[kShadings], rectangle_[kShadings];
     Program tileDepth_, cutTileDepth_, rectangleDepth_;

@@ -11,8 +11,8 @@
 namespace espalier {
 namespace {
 
-constexpr int kAcross = int(kProfileSteps), kUp = 8;  // samples of a cell
-constexpr float kSteepest = 0.12f;                    // the least that a normal leans towards the eye
+constexpr int kAcross = int(kProfileSteps), kUp = 20;  // samples of a cell
+constexpr float kSteepest = 0.12f;                     // the least that a normal leans towards the eye
 
 struct Sample {
     float height = -1e9f, slope = 0, shade = 1;
@@ -27,23 +27,32 @@ float cross2(glm::vec2 a, glm::vec2 b) {
     return a.x * b.y - a.y * b.x;
 }
 
+struct Corner {
+    glm::vec3 position, normal;
+    float shade;
+};
+using Triangle = std::array<Corner, 3>;
+
 // Of a triangle in a neighbouring cell what lies in this one and above what was there.
-void cover(Cell& cell, const TerminalVertex& a, const TerminalVertex& b, const TerminalVertex& c, glm::vec2 shift) {
+void cover(Cell& cell, const Triangle& t, glm::vec2 shift) {
+    const auto& [a, b, c] = t;
     const glm::vec2 o = glm::vec2(a.position) + shift, p = glm::vec2(b.position - a.position),
                     q = glm::vec2(c.position - a.position);
+    const glm::vec2 low = o + glm::min(glm::min(p, q), glm::vec2(0)), high = o + glm::max(glm::max(p, q), glm::vec2(0));
     const float area = cross2(p, q);
-    if (area <= 1e-9f) return;  // seen from inside, or edge-on
-    const std::array<glm::vec3, 3> normals{unpackOct(a.normal), unpackOct(b.normal), unpackOct(c.normal)};
+    const bool beside = high.x < 0 || high.y < 0 || low.x > 1 || low.y > 1;
+    if (beside || !(area > 1e-9f)) return;  // or seen from inside, or edge-on
     for (int y = 0; y < kUp; ++y) {
         for (int x = 0; x < kAcross; ++x) {
             const glm::vec2 d = placeOf(x, y) - o;
-            const float s = cross2(d, q) / area, t = cross2(p, d) / area, r = 1 - s - t;
-            if (std::min({r, s, t}) < 0) continue;
-            const float height = r * a.position.z + s * b.position.z + t * c.position.z;
+            const float u = cross2(d, q) / area, v = cross2(p, d) / area, w = 1 - u - v;
+            if (std::min({u, v, w}) < 0) continue;
+            const float height = w * a.position.z + u * b.position.z + v * c.position.z;
             Sample& out = cell[size_t(y * kAcross + x)];
             if (height <= out.height) continue;
-            const glm::vec3 n = r * normals[0] + s * normals[1] + t * normals[2];
-            out = {height, -n.x / std::max(n.z, kSteepest * glm::length(n)), r * a.uv.x + s * b.uv.x + t * c.uv.x};
+            const glm::vec3 n = w * a.normal + u * b.normal + v * c.normal;
+            const float least = std::max(kSteepest * glm::length(n), 1e-6f);
+            out = {height, -n.x / std::max(n.z, least), w * a.shade + u * b.shade + v * c.shade};
         }
     }
 }
@@ -52,11 +61,13 @@ void cover(Cell& cell, const TerminalVertex& a, const TerminalVertex& b, const T
 Cell openOf(const TerminalData& meshes, const TerminalLod& lod) {
     Cell cell;
     for (uint32_t i = 0; i + 2 < lod.indexCount; i += 3) {
-        auto vertex = [&](uint32_t k) -> const TerminalVertex& {
-            return meshes.vertices[lod.firstVertex + meshes.indices[lod.firstIndex + i + k]];
-        };
+        Triangle triangle;
+        for (uint32_t k = 0; k < 3; ++k) {
+            const TerminalVertex& v = meshes.vertices[lod.firstVertex + meshes.indices[lod.firstIndex + i + k]];
+            triangle[k] = {v.position, unpackOct(v.normal), v.uv.x};
+        }
         for (float x : {-1.f, 0.f, 1.f})
-            for (float y : {-1.f, 0.f, 1.f}) cover(cell, vertex(0), vertex(1), vertex(2), {x, y});
+            for (float y : {-1.f, 0.f, 1.f}) cover(cell, triangle, {x, y});
     }
     return cell;
 }

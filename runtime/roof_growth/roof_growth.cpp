@@ -46,9 +46,9 @@ Status GpuRoofs::makeKernels(const RuleMap& grammar, bool fetches) {
     if (derive_ && kind == kind_) return Done{};
     kind_ = kind;
     derive_ = {};
-    const ProgramOptions options{.exact = true,
-                                 .constants = {{0, kind.mapByAddress}, {1, kind.uses}, {2, kind.recordsByAddress}}};
-    return espalier::makeKernels(device_, {{derive_, "roof_growth/derive.comp", options, kRoofGroup}});
+    return makeCompute(device_,
+                       {{derive_, "roof_growth/derive.comp",
+                         exactly({{0, kind.mapByAddress}, {1, kind.uses}, {2, kind.recordsByAddress}}), kRoofGroup}});
 }
 
 RoofEnv GpuRoofs::environment(const RoofInputs& inputs, const Set& set) const {

@@ -80,8 +80,8 @@ Container::Container(std::vector<std::byte> file, bool partial) : file_(std::mov
 const json& Container::walk() const {
     const auto all = root_.find("extensions");
     if (all == root_.end() || !all->is_object() || !all->contains(kExtension))
-        fail("glTF", "not a baked surface, which espalier-bake makes of a model: " + std::string(kExtension) +
-                         " is missing");
+        fail("glTF",
+             "not a baked surface, which espalier-bake makes of a model: " + std::string(kExtension) + " is missing");
     return (*all)[kExtension];
 }
 

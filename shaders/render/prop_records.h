@@ -25,7 +25,7 @@ struct PropPush {
     uint grass;         // 1: it has the meadow's colour
     float roughness;
     float alphaCutoff;  // 0: opaque
-    float high;         // of the mesh above its foot
+    float high;         // of the mesh above its origin, where it stands
 };
 STATIC_SIZE(PropPush, 36);
 

@@ -60,10 +60,9 @@ BUFFER(RoofDrawStateBuf, RoofDrawState)
 // What lies open of a covering at a place across its cells.
 CONST_UINT(kProfileSteps, 16u);
 struct RoofProfile {
-    float slope;       // metres (of what Shape's thickness stretches, that) a cell
+    float slope;       // of the mesh's height to its right, in the mesh's space; in the world thickness / size.x times that
     float shade;
-    float steepness;   // mean of the slope's size, likewise of all steps
-    float meanShade;
+    float steepness, meanShade;   // means of the slope's size and the shade over the cell, the same at all steps
 };
 STATIC_SIZE(RoofProfile, 16);
 BUFFER(RoofProfileBuf, RoofProfile)

@@ -60,7 +60,7 @@ void main() {
         base *= mix(left.meanShade, abs(fract(cell.y) - 0.2) < 0.1 ? 1.0 : 0.12, clear);
     else
         base *= mix(left.meanShade, 0.5 * (left.shade + right.shade), ribs);
-    base = mossy(env, look.w, base, position, edge * clear);
+    base = mossy(env, look.w, base, position, edge);
     uint drop = (look.w >> kGridDrop) & 15u;
     if (drop != 0u) {
         float painted = roofLayerAt(env.roofs.layers, env.roofs.site, drop - 1u, position.xz);

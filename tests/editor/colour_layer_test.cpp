@@ -124,10 +124,9 @@ TEST_CASE("colours survive a project, and pictures that a painting program could
         CHECK(most == doctest::Approx(floats ? .75f : .8808f).epsilon(.001));  // sRGB of .75
 
         REQUIRE(editing.perform(FillLayer{"colour", 0, {0, 0, 0}}));
-        std::string note;
-        const uint32_t gesture = 7;
-        REQUIRE_MESSAGE(importLayer(*editing.document, "colour", file, gesture, note, editing.error), editing.error);
-        CHECK(note.empty());
+        Work work(importing(*editing.document, "colour", file, 7));
+        REQUIRE_MESSAGE(work.finish(editing.error), editing.error);
+        CHECK(work.note().empty());
         const Channels back = coloursOf(editing);
         float worst = 0;
         for (size_t c = 0; c < 3; ++c)

@@ -43,7 +43,10 @@ void paint(Editing& editing) {
 
 bool import(Editing& editing, const std::string& file, std::string& note) {
     editing.error.clear();
-    return importLayer(*editing.document, kLayer, file, 7, note, editing.error);
+    Work work(importing(*editing.document, kLayer, file, 7));
+    const bool good = work.finish(editing.error);
+    note = work.note();
+    return good;
 }
 
 float farthest(const std::vector<float>& a, const std::vector<float>& b) {

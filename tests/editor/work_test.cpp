@@ -174,7 +174,7 @@ TEST_CASE("an export of several pictures is all of them or, cancelled, none") {
     Editing editing(twoRuins(folder));
     const std::filesystem::path out = folder.path / "out";
     std::filesystem::create_directories(out);
-    const auto plan = [&] { return exporting(*editing.document, "mask", false, (out / "mask.exr").string()); };
+    const auto plan = [&] { return exporting(*editing.document, "mask", (out / "mask.exr").string()); };
     REQUIRE(editing.perform(FillLayer{"mask", .25f}));
     REQUIRE(Work(plan()).finish(editing.error));
     const auto before = filesIn(out);
@@ -203,7 +203,7 @@ TEST_CASE("an import that is cancelled or fails halfway leaves all layers, and o
     REQUIRE(exportLayer(*editing.document, "mask", file, editing.error));
     REQUIRE(editing.perform(FillLayer{"mask", .5f}));
     {
-        Work work(importing(*editing.document, "mask", false, file, 7));
+        Work work(importing(*editing.document, "mask", file, 7));
         while (lowest(editing) == .5f) REQUIRE(work.step());
         CHECK(lowest(editing, 1) == .5f);
         work.cancel();
@@ -212,13 +212,13 @@ TEST_CASE("an import that is cancelled or fails halfway leaves all layers, and o
         for (size_t i = 0; i < 2; ++i) CHECK(lowest(editing, i) == .5f);
     }
     const size_t steps = editing.document->undoSteps();
-    REQUIRE(Work(importing(*editing.document, "mask", false, file, 8)).finish(editing.error));
+    REQUIRE(Work(importing(*editing.document, "mask", file, 8)).finish(editing.error));
     CHECK(editing.document->undoSteps() == steps + 1);
     for (size_t i = 0; i < 2; ++i) CHECK(lowest(editing, i) == .25f);
     REQUIRE(editing.perform(Undo{}));
     for (size_t i = 0; i < 2; ++i) CHECK(lowest(editing, i) == .5f);
     folder.write("mask-1.exr", "no picture");
-    CHECK(!Work(importing(*editing.document, "mask", false, file, 9)).finish(editing.error));
+    CHECK(!Work(importing(*editing.document, "mask", file, 9)).finish(editing.error));
     CHECK_MESSAGE(contains(editing.error, "mask-1.exr"), editing.error);
     for (size_t i = 0; i < 2; ++i) CHECK(lowest(editing, i) == .5f);
     CHECK(editing.document->undoSteps() == steps);

@@ -1,6 +1,7 @@
 // Ranges that the headers name, with both of their ends, and what lies far beyond.
 #include <doctest/doctest.h>
 
+#include <string>
 #include <vector>
 
 #include "tests/plugin/life.hpp"
@@ -58,6 +59,12 @@ TEST_CASE("dabs that lie however far away paint nothing, and nothing is kept of 
             CHECK(espStrokeBytes(life.context, painted(life, {dab}, true)) == 0);
         CHECK(mask(life) == before);
     }
+    // A far one doesn't make more be kept of a near one that comes with it.
+    const EspDab again{{-.2f, -.2f, 0}, {0, 0, 1}, 1};
+    const uint64_t alone = espStrokeBytes(life.context, painted(life, {again}, true));
+    const EspDab beside{{-.2f, .2f, 0}, {0, 0, 1}, 1};
+    const EspStroke both = painted(life, {beside, {{1e11f, 0, 0}, {0, 0, 1}, 1}}, true);
+    CHECK(espStrokeBytes(life.context, both) <= 2 * alone);
 }
 
 TEST_CASE("many dabs in one call paint what they do one by one") {
@@ -90,17 +97,23 @@ TEST_CASE("surfaces are moved by up to a billion metres, no further") {
     }
 }
 
-TEST_CASE("a ray's length doesn't matter to where it meets, and how far off") {
+TEST_CASE("a ray's length doesn't matter to what it meets, and how far off") {
     FailingDevice device;
     Life life;
-    REQUIRE((life.create(device) && life.load()));
-    const float origin[3] = {.2f, .3f, 2};
-    for (const float length : {1e-36f, 1e-20f, 1.f, 1e20f, 3e38f}) {
+    REQUIRE((life.create(device) && life.load() && life.compile() && life.plant(1) && life.update()));
+    const float origin[3] = {.1f, .02f, 2};
+    EspPlantHit first{};
+    for (const float length : {1.f, 1e-36f, 1e-20f, 1e20f, 3e38f}) {
         CAPTURE(length);
         const float direction[3] = {0, 0, -length};
         EspHit hit{};
         REQUIRE(espPick(life.context, origin, direction, &hit) == ESP_OK);
         CHECK(hit.distance == doctest::Approx(2).epsilon(1e-4));
+        EspPlantHit plant{};
+        REQUIRE(espPickPlant(life.context, origin, direction, &plant) == ESP_OK);
+        if (length == 1) first = plant;
+        CHECK(plant.branch == first.branch);
+        CHECK(plant.distance == first.distance);
     }
 }
 

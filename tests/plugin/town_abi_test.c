@@ -193,6 +193,15 @@ static void courtyards(EspContext* context) {
     CHECK(stats(context).hash == hash);
     OK(context, espHouseInfo(context, 2, &info));
     CHECK(info.ringCount == 2);
+    EspHouseEdge edge = {5, 0, 0.7f}; /* of the courtyard */
+    change.edges = &edge;
+    change.edgeCount = 1;
+    OK(context, espSetHouse(context, 2, &change));
+    edge.edge = 8;
+    REFUSED(espSetHouse(context, 2, &change));
+    change.edges = NULL;
+    change.edgeCount = 0;
+    OK(context, espSetHouse(context, 2, &change));
     OK(context, espHouseShape(context, 2, now, NULL));
     float low = 1e9f;
     for (int i = 4; i < 8; ++i) low = fminf(low, now[2 * i]);

@@ -132,7 +132,8 @@ bool parseCamera(const std::string& text, EspCamera& camera) {
     for (bool more = true; more; ++count) {
         if (count == 7) return false;
         while (at != end && *at == ' ') ++at;
-        const auto [rest, wrong] = std::from_chars(at, end, v[count]);
+        auto [rest, wrong] = std::from_chars(at, end, v[count]);
+        while (rest != end && *rest == ' ') ++rest;
         if (wrong != std::errc() || (rest != end && *rest != ',')) return false;
         more = rest != end;
         at = more ? rest + 1 : rest;

@@ -241,10 +241,10 @@ bool Document::carryOut(const AddSeeds& action, std::vector<Action>& back, std::
         if (record.key == 0 || seed(record.key) || record.grammar >= scene_.grammars.size() ||
             !finite(record.position) || !finite(record.direction) || action.places[i] > scene_.seeds.size()) {
             error = "the seed of key " + std::to_string(record.key) + " can't be planted: " +
-                    (record.key == 0 || seed(record.key)            ? "another has this key, or it is 0"
-                     : record.grammar >= scene_.grammars.size()     ? "there is no such grammar"
-                     : action.places[i] > scene_.seeds.size()       ? "its place is beyond the end of the list"
-                                                                    : "a number isn't finite");
+                    (record.key == 0 || seed(record.key)        ? "another has this key, or it is 0"
+                     : record.grammar >= scene_.grammars.size() ? "there is no such grammar"
+                     : action.places[i] > scene_.seeds.size()   ? "its place is beyond the end of the list"
+                                                                : "a number isn't finite");
             scene_.seeds = before;
             return false;
         }

@@ -85,6 +85,11 @@ bool readPictures(std::vector<Imported>& pictures, bool colour, Progress& progre
     return progress.at(1);
 }
 
+bool liesOverTown(const Document& document, const std::string& layer) {
+    const scene::Scene& scene = document.scene();
+    return scene::isTownsAlone(document.context(), scene, channelsOf(scene, layer)[0]);
+}
+
 Work::Plan refusing(const std::string& why) {
     Work::Plan plan;
     plan.before.push_back([why](std::string& error) {
@@ -96,8 +101,9 @@ Work::Plan refusing(const std::string& why) {
 
 }  // namespace
 
-Work::Plan exporting(const Document& document, const std::string& layer, bool town, const std::string& path) {
+Work::Plan exporting(const Document& document, const std::string& layer, const std::string& path) {
     Work::Plan plan;
+    const bool town = liesOverTown(document, layer);
     const std::string ending = fs::path(path).extension().string();
     if (ending != ".png" && ending != ".exr") return refusing(path + ": layers are written as .png or .exr");
     const auto pictures = std::make_shared<std::vector<Exported>>(town ? 1 : document.scene().surfaces.size());
@@ -119,14 +125,12 @@ Work::Plan exporting(const Document& document, const std::string& layer, bool to
 }
 
 bool exportLayer(const Document& document, const std::string& layer, const std::string& path, std::string& error) {
-    const scene::Scene& scene = document.scene();
-    const bool town = scene::isTownsAlone(document.context(), scene, channelsOf(scene, layer)[0]);
-    return Work(exporting(document, layer, town, path)).finish(error);
+    return Work(exporting(document, layer, path)).finish(error);
 }
 
-Work::Plan importing(Document& document, const std::string& layer, bool town, const std::string& path,
-                     uint32_t gesture) {
+Work::Plan importing(Document& document, const std::string& layer, const std::string& path, uint32_t gesture) {
     Work::Plan plan;
+    const bool town = liesOverTown(document, layer);
     const auto pictures = std::make_shared<std::vector<Imported>>(town ? 1 : document.scene().surfaces.size());
     if (pictures->empty()) return refusing(path + ": there is no surface whose layer it could be");
     const auto note = plan.note = std::make_shared<std::string>();
@@ -151,16 +155,6 @@ Work::Plan importing(Document& document, const std::string& layer, bool town, co
         (void)document.perform(Undo{}, unheard);
     };
     return plan;
-}
-
-bool importLayer(Document& document, const std::string& layer, const std::string& path, uint32_t gesture,
-                 std::string& note, std::string& error) {
-    const scene::Scene& scene = document.scene();
-    const bool town = scene::isTownsAlone(document.context(), scene, channelsOf(scene, layer)[0]);
-    Work work(importing(document, layer, town, path, gesture));
-    const bool good = work.finish(error);
-    note = work.note();
-    return good;
 }
 
 }  // namespace espalier::document
