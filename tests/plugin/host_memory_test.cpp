@@ -441,9 +441,9 @@ TEST_CASE("a town whose roofs' meshes the host had no memory to name gets them a
         town.length = 0;
         left = pieces;
         const EspResult result = espLoadTown(life.context, &town);
-        const uint32_t took = pieces - left;
+        const uint32_t rest = left;
         left = kPlenty;
-        return std::pair(result, took);
+        return std::pair(result, pieces - rest);
     };
     {
         FailingDevice device;
