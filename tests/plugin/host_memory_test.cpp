@@ -277,7 +277,8 @@ struct Masked {
         REQUIRE(life.update());
     }
     // What stands is what growing all anew gives.
-    void check() {
+    void check(const std::string& when) {
+        CAPTURE(when);
         REQUIRE(life.update());
         const uint64_t hash = life.stats().hash;
         EspGrowDef grow = espDefaultGrowDef();
@@ -325,7 +326,7 @@ TEST_CASE("what want of the host's memory leaves of a dab or a layer that is set
             REQUIRE(espBeginStroke(masked.context, &brush, &stroke) == ESP_OK);
             const EspDab dab{{.3f, .3f, 0}, {0, 0, 1}, 1};
             result = with(at, [&] { return espStrokeDabs(masked.context, stroke, &dab, 1); });
-            masked.check();
+            masked.check("painted");
             REQUIRE(espEndStroke(masked.context, stroke) == ESP_OK);
             REQUIRE(espSwapStroke(masked.context, stroke) == ESP_OK);
             CHECK(espPaintedLayerCount(masked.context) == 0);
@@ -333,7 +334,7 @@ TEST_CASE("what want of the host's memory leaves of a dab or a layer that is set
             result = masked.setLayer(at, &none);
             CHECK(espPaintedLayerCount(masked.context) == (result == ESP_OK ? 1 : 0));
         }
-        masked.check();
+        masked.check(dabs ? "undone" : "set");
         if (result == ESP_OK) break;
         REQUIRE(result == ESP_OUT_OF_MEMORY);
         failures += 1;
