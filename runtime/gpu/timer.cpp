@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 
 namespace espalier {
 namespace {
@@ -51,11 +52,14 @@ void TimerRing::stop(VkCommandBuffer commands, uint32_t mark) {
                                       mark % kPairs * 2 + 1);
 }
 
-void TimerRing::collect(uint64_t oldestPending) {
+void TimerRing::collect(uint64_t oldestPending) noexcept {
     const bool atWork = std::ranges::any_of(pools_, [&](const Pool& pool) { return pool.serial >= oldestPending; });
     for (Pool& pool : pools_) {
         if (pool.serial == 0 || pool.serial >= oldestPending) continue;
-        if (!atWork || !device_.info().cpu) read(pool);
+        try {
+            if (!atWork || !device_.info().cpu) read(pool);
+        } catch (const std::bad_alloc&) {
+        }
         setFree(pool);
     }
 }

@@ -22,7 +22,8 @@ class TimerRing {
     void stop(VkCommandBuffer commands, uint32_t mark);
     // Reads the pools of all recordings before `oldestPending` and sets them free. A software device that is at work
     // lets nobody read before it is done: times are those of a recording that nothing was recorded beside, then.
-    void collect(uint64_t oldestPending);
+    // Times that the host has no memory for are lost: work that has been submitted can't fail any more.
+    void collect(uint64_t oldestPending) noexcept;
     const std::vector<PassTime>& times() const { return times_; }
 
   private:

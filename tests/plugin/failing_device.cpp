@@ -23,6 +23,7 @@ struct Plan {
     uint32_t at = 0, calls = 0;
     const char* failed = "";
 } plan;
+bool finishesAtOnce = false;
 
 // What this call gives instead of the driver's answer, or VK_SUCCESS.
 VkResult verdict(const char* name, FailingDevice::Failure kind) {
@@ -52,7 +53,10 @@ struct Hook<Number, VkResult(VKAPI_PTR*)(Arguments...)> {
 
     static VKAPI_ATTR VkResult VKAPI_CALL call(Arguments... arguments) {
         const VkResult failure = verdict(name, kind);
-        return failure == VK_SUCCESS ? real(arguments...) : failure;
+        if (failure != VK_SUCCESS) return failure;
+        const VkResult result = real(arguments...);
+        if (finishesAtOnce && !std::strcmp(name, "vkQueueSubmit2")) vkDeviceWaitIdle(handles.device);
+        return result;
     }
     static PFN_vkVoidFunction over(PFN_vkVoidFunction driver, const char* functionName, FailingDevice::Failure how) {
         real = reinterpret_cast<VkResult(VKAPI_PTR*)(Arguments...)>(driver);
@@ -138,6 +142,7 @@ FailingDevice::~FailingDevice() {
     vkDestroyDevice(handles.device, nullptr);
     vkDestroyInstance(handles.instance, nullptr);
     handles = {};
+    finishesAtOnce = false;
 }
 
 EspHostDevice FailingDevice::host() const {
@@ -161,6 +166,10 @@ void FailingDevice::heal() {
     plan.armed = plan.lost = false;
     plan.calls = 0;
     plan.failed = "";
+}
+
+void FailingDevice::finishAtOnce(bool does) {
+    finishesAtOnce = does;
 }
 
 uint32_t FailingDevice::calls() const {

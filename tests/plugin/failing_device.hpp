@@ -26,6 +26,8 @@ class FailingDevice {
     void failAt(uint32_t at, Failure how);
     // Nothing fails any more.
     void heal();
+    // What is submitted has been done when the call returns, as on a fast GPU, or not before long.
+    void finishAtOnce(bool does);
     // Calls since the last failAt or heal that could have failed in the way last asked for.
     uint32_t calls() const;
     // The function that failed, or an empty text if none has.

@@ -308,6 +308,9 @@ TEST_CASE("what want of the host's memory leaves of a dab or a layer that is set
     const float none = 0;
     bool dabs = true;
     SUBCASE("dabs") {}
+    SUBCASE("dabs that are done when they have been submitted") {
+        masked.device.finishAtOnce(true);
+    }
     SUBCASE("layers") {
         dabs = false;
     }
