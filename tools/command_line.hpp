@@ -13,6 +13,9 @@ namespace espalier {
 // code: 0 after --help or --version, 2 where the line can't be read, which stderr has been told.
 inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // too large a file is an error like a full disk, with a message
+    app.failure_message([](const CLI::App* program, const CLI::Error& mistake) {
+        return program->get_name() + ": " + mistake.what() + "; see --help\n";
+    });
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

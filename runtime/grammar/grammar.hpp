@@ -61,6 +61,8 @@ using IncludeReader = std::function<Result<std::string>(const std::string& name)
 // Reads files of the same folder only, so that a grammar from elsewhere can't read what isn't its own.
 IncludeReader includesBeside(const std::filesystem::path& file);
 
+inline constexpr size_t kMaxGrammarBytes = 1 << 20;  // of a text, and of each that it includes
+
 struct CompileOptions {
     std::string fileName = "grammar";  // for diagnostics
     IncludeReader readInclude;         // none: includes are refused

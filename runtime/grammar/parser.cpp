@@ -12,7 +12,7 @@ namespace espalier::grammar {
 namespace {
 
 constexpr int kMaxDepth = 64;
-constexpr size_t kMaxRules = 1000, kMaxTextBytes = 1 << 20, kMaxFiles = 16;
+constexpr size_t kMaxRules = 1000, kMaxFiles = 16;
 
 struct Stop {};  // unwinds to the statement; never leaves this file
 
@@ -391,7 +391,7 @@ void parseFile(std::string_view text, const std::string& name, const CompileOpti
     uint32_t file = static_cast<uint32_t>(module.files.size());
     module.files.push_back(name);
     sources.emplace_back(text);
-    if (text.size() > kMaxTextBytes) {
+    if (text.size() > kMaxGrammarBytes) {
         reporter.error({file, 0, 0}, {}, "the text is longer than 1 MiB");
         return;
     }

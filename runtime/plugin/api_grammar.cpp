@@ -11,7 +11,6 @@
 namespace espalier {
 namespace {
 
-constexpr size_t kMostGrammarBytes = 1 << 20;
 constexpr uint32_t kMaxGrammars = 1024;
 
 Result<RuleMap> compile(const EspContext& context, const EspGrammarDef& def) {
@@ -70,7 +69,7 @@ Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, uin
 EspResult checkDef(const EspContext* context, const EspGrammarDef* def) {
     if (!def || (!def->text && def->length))
         return fail(context, ESP_INVALID_ARGUMENT, "compiling a grammar: null pointer");
-    if (def->length > kMostGrammarBytes)
+    if (def->length > kMaxGrammarBytes)
         return fail(context, ESP_INVALID_CONTENT,
                     std::string(def->name ? def->name : "a grammar") + ": the text is longer than 1 MiB");
     return ESP_OK;

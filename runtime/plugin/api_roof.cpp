@@ -24,7 +24,7 @@ Status knowRoofMeshes(EspContext& context) {
 
 namespace {
 
-constexpr size_t kMaxTextBytes = 512u << 20;
+constexpr size_t kMaxFootprintBytes = 512u << 20;
 constexpr size_t kMaxWarnings = 200;  // told one by one
 
 void tell(EspContext& context, const std::vector<Diagnostic>& all) {
@@ -184,7 +184,7 @@ EspResult espSetTownGrammar(EspContext* context, EspGrammar id) {
 EspResult espLoadTown(EspContext* context, const EspTownDef* def) {
     return guarded(context, [&] {
         if (!def || !def->text) return fail(context, ESP_INVALID_ARGUMENT, "espLoadTown: null pointer");
-        if (def->length > kMaxTextBytes)
+        if (def->length > kMaxFootprintBytes)
             return fail(context, ESP_INVALID_CONTENT, "espLoadTown: more than 512 MiB of text");
         for (float v : {def->position[0], def->position[1], def->position[2], def->turn, def->groundColour[0],
                         def->groundColour[1], def->groundColour[2]})

@@ -27,7 +27,7 @@ bool takeKey(uint item, bool before) {
 void giveKey(uint item, uint kind, vec3 center, uint bin) {
     uint cell = kind * kMaxCells + cellOf(push.grid, center);
     push.keys.v[item] = (cell * kCellBins + bin) | kFresh;
-    for (bool listed = push.partly != 0u; listed; listed = false) {
+    IF_ANY(push.partly != 0u) {
         push.cells.v[cell].changed = 1u;
         push.list.v[atomicAdd(HEAD.changed, 1u)] = item;
     }

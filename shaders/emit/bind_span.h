@@ -39,7 +39,7 @@ uint trianglesOfBark(uint kind) {
 // Leaves that were bound to node `i` are to be bound again, and chained anew. Not too many: no chain that was never
 // written is followed for ever.
 void listLeaves(uint i) {
-    for (bool before = push.partly != 0u && i < push.nodesBefore; before; before = false) {
+    IF_ANY(push.partly != 0u && i < push.nodesBefore) {
         uint leaf = push.leafHeads.v[i];
         for (uint k = 0u; k < 65536u && leaf < push.leavesBefore; ++k) {
             uint at = atomicAdd(HEAD.largest, 1u);
@@ -55,7 +55,7 @@ void bindSpan(uint i) {
     env.nodes = push.nodes;
     env.chunks = push.chunks;
     bool concerned = true;
-    for (bool asked = push.partly != 0u; asked; asked = false) concerned = (push.flags.v[i] & kFlagSpan) != 0u;
+    IF_ANY(push.partly != 0u) concerned = (push.flags.v[i] & kFlagSpan) != 0u;
     if (concerned) {
         listLeaves(i);
         if (takeKey(i, i < push.nodesBefore)) {

@@ -33,7 +33,7 @@ void settleClass(uint item, bool last, float error, uint order) {
     uint moved = (kind * kMaxCells + cell % kMaxCells) * kCellBins + bin;
     if (key != kNoIndex && (key & ~kFresh) != moved) {
         push.keys.v[item] = moved | kFresh;
-        for (bool listed = push.partly != 0u; listed; listed = false) {
+        IF_ANY(push.partly != 0u) {
             push.cells.v[moved / kCellBins].changed = 1u;
             push.cells.v[cell].changed = 1u;
             if (key < kFresh) push.list.v[atomicAdd(HEAD.changed, 1u)] = item;
@@ -91,7 +91,7 @@ void bindStretch(uint end) {
                 push.spans.v[i].reach = sphere.w;
             }
             settleClass(i, i == end, error, own.w >> 16u);
-            for (bool part = push.partly != 0u; part; part = false) widen(i, vec3(sphere), sphere.w, thick);
+            IF_ANY(push.partly != 0u) widen(i, vec3(sphere), sphere.w, thick);
         }
     }
 }

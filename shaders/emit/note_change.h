@@ -9,12 +9,12 @@ void noteChange(vec3 center, float radius) {
 
 // As far as the culling kernels take them to reach.
 void noteSpan(vec3 p0, vec3 b1, vec3 b2, vec3 p3, float thick) {
-    for (bool noted = push.watched != 0u; noted; noted = false) {
+    IF_ANY(push.watched != 0u) {
         vec4 sphere = spanSphere(p0, b1, b2, p3);
         noteChange(vec3(sphere), sphere.w + 2.0f * max(thick, watched.leastPixels / watched.pixelScale));
     }
 }
 void noteLeaf(vec3 origin, float size, float extent) {
-    for (bool noted = push.watched != 0u; noted; noted = false)
+    IF_ANY(push.watched != 0u)
         noteChange(origin, size * leafGrowth(leafShare(watched, size * watched.pixelScale)) * extent);
 }

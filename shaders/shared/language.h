@@ -25,6 +25,7 @@
 #define STATIC_SIZE(T, bytes) static_assert(sizeof(T) == (bytes))
 #define IS_GIVEN(buffer) ((buffer).v != nullptr)
 #define UNUSED(x) (void)(x)
+#define IF_ANY(condition) if (condition)
 
 namespace espalier {
 using glm::ivec2;
@@ -56,6 +57,9 @@ inline float uintBitsToFloat(uint b) { float x; std::memcpy(&x, &b, 4); return x
 #define STATIC_SIZE(T, bytes)
 #define IS_GIVEN(buffer) (uint64_t(buffer) != 0ul)
 #define UNUSED(x)
+// An `if` whose text is left out where no lane takes it: software devices run that of a plain one all the same, and jump
+// at a loop's end alone.
+#define IF_ANY(condition) for (bool any_ = (condition); any_; any_ = false)
 #define u64 uint64_t
 
 #endif

@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
     options.dataFolder = data ? data : "../shared/data";
     options.contentFolder = ESPALIER_CONTENT;
     options.modulesFolder = ESPALIER_NODE_MODULES;
-    CLI::App app("Espalier's benchmark: medians; every row names the other side and the ratio ours / other.");
+    CLI::App app("Espalier's benchmark: medians; every row names the other side and the ratio ours / other.",
+                 "espalier-bench");
     app.set_version_flag("--version", ESPALIER_VERSION);
     app.add_option("--filter", options.filter,
                    "only cases whose name contains this: growth/, edit/, emit/, frame/, render/, paint/, bake/, "

@@ -53,8 +53,7 @@ Comparison compare(const FloatPicture& a, const FloatPicture& b, int tolerance) 
 int main(int argc, char** argv) {
     CLI::App app{
         "Compares two pictures pixel by pixel, alpha too. Ends with 0: alike, 1: not alike, also by their sizes, 2: "
-        "can't "
-        "tell.",
+        "can't tell.",
         "espalier-compare"};
     app.set_version_flag("--version", ESPALIER_VERSION);
     std::string first, second, diff;

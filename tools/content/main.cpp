@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
     using namespace espalier;
     CLI::App app{
         "Generates Espalier's sample content: a ruin and its layers, what plants and roofs are made of, props; "
-        "with --town also the site around it."};
+        "with --town also the site around it.",
+        "espalier-content"};
     content::Options options;
     app.add_option("OUT_DIR", options.directory,
                    "folder for ruin.glb, its layers, terminals.glb, roofs.glb and props.glb; made if missing")

@@ -183,12 +183,15 @@ void sweep(const fs::path& folder, const std::vector<std::string>& kept) {
         if (!scene::readText((folder / file).string(), text, error)) return;  // who knows what it names
         wanted += text;
     }
-    for (const fs::path& place : {folder, folder / kLayers, folder / kPlants, folder / kSurfaces})
+    for (const fs::path& place : {folder, folder / kLayers, folder / kPlants, folder / kSurfaces}) {
         for (const auto& entry : fs::directory_iterator(place, ignored)) {
             const std::string name = entry.path().filename().string();
             const bool unwanted = place != folder && named(name) && wanted.find(name) == std::string::npos;
             if (isAbandoned(name) || unwanted) fs::remove(entry.path(), ignored);
         }
+        if (place != folder && fs::is_directory(fs::symlink_status(place, ignored)))
+            fs::remove(place, ignored);  // if nothing is in it
+    }
 }
 
 // What couldn't be opened again never takes the place of what can.
