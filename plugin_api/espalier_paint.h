@@ -43,7 +43,8 @@ typedef struct EspCarried {
  * at a time. ESP_IO_FAILED: a file can't be read; ESP_INVALID_CONTENT: it is no surface. */
 ESP_API EspResult espCreateCarry(const char* earlier, const char* later, EspCarry** out);
 ESP_API uint32_t espCarrySide(const EspCarry* carry);   /* texels a side of what is carried; NULL: 0 */
-/* texels: as espReadLayer gave them, over the earlier bake's walk UV set. fresh: the value of ground that the earlier hadn't.
+/* texels: as espReadLayer gave them, over the earlier bake's walk UV set; limited to [0,1], NaN counts as 0. fresh: the value
+ * of ground that the earlier hadn't, finite.
  * out: espCarrySide's square of floats, over the later's; espSetLayer takes them as ESP_LAYER_WALK_UV. carried: may be
  * NULL. */
 ESP_API EspResult espCarryLayer(const EspCarry* carry, const float* texels, uint32_t width, uint32_t height, float fresh,

@@ -169,10 +169,7 @@ bool BrushTool::take(Workspace& work, const PointerEvent& event) {
             else
                 work.brush.strength = std::clamp(before_ + moved / 300, .01f, 1.f);
         } else if (event.kind == Kind::press) {
-            if (event.button == GLFW_MOUSE_BUTTON_RIGHT)
-                cancel(work);
-            else
-                endSizing(work);
+            endSizing(work);
         }
         return true;
     }

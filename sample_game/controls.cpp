@@ -30,6 +30,20 @@ void Controls::cancelTools() {
     noteTools();
 }
 
+bool Controls::takeBackDrag() {
+    if (brush_.sizing())
+        brush_.cancel(work_);
+    else if (brush_.painting())
+        brush_.takeBack(work_);
+    else if (seeds_.dragging())
+        seeds_.cancel(work_);
+    else if (houses_.dragging())
+        houses_.cancel(work_);
+    else
+        return false;
+    return true;
+}
+
 void Controls::finishTools() {
     brush_.cancel(work_);  // keeps what is painted
     seeds_.finish(work_);
@@ -47,7 +61,7 @@ void Controls::noteTools() {
 }
 
 void Controls::setEditing(bool editing) {
-    cancelTools();
+    finishTools();
     catchMouse(false);
     work_.setEditing(editing);
 }
@@ -80,7 +94,7 @@ void Controls::takeKey(const KeyEvent& event) {
         if (key == GLFW_KEY_S) askToSave(work_, session_, shift);
         if (key == GLFW_KEY_O) askToOpen();
         if (key == GLFW_KEY_E && !work_.brush.layer.empty()) askForLayer(work_.brush.layer, false);
-        if (key == GLFW_KEY_Z && brush_.painting()) return brush_.takeBack(work_);
+        if (key == GLFW_KEY_Z && takeBackDrag()) return;
         if (toolBusy()) return;
         if (key == GLFW_KEY_D && work_.editing && work_.tool == Tool::seeds && !navigation_.dragging())
             return seeds_.duplicate(work_, {event.x, event.y});
@@ -98,15 +112,7 @@ void Controls::takeKey(const KeyEvent& event) {
             catchMouse(false);
         else if (work_.layout.help)
             work_.layout.help = false;
-        else if (brush_.sizing())
-            brush_.cancel(work_);
-        else if (brush_.painting())
-            brush_.takeBack(work_);
-        else if (seeds_.dragging())
-            seeds_.cancel(work_);
-        else if (houses_.dragging())
-            houses_.cancel(work_);
-        else
+        else if (!takeBackDrag())
             chooseTool(Tool::look);
     }
     if (key == GLFW_KEY_HOME) {
@@ -219,6 +225,8 @@ void Controls::takePointer(const PointerEvent& event) {
     if (panelTakes(event)) return;
     const bool pressed = event.kind == PointerEvent::Kind::press && event.button == GLFW_MOUSE_BUTTON_LEFT;
     if (!work_.editing && pressed && !navigation_.caught) return catchMouse(true);
+    const bool right = event.kind == PointerEvent::Kind::press && event.button == GLFW_MOUSE_BUTTON_RIGHT;
+    if (right && !brush_.painting() && !navigation_.dragging() && takeBackDrag()) return;
     // Whoever has begun goes on until his button is let go.
     const bool toolFirst = toolBusy() && !navigation_.dragging();
     if (!toolFirst && navigation_.take(work_, event)) return;

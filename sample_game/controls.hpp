@@ -42,7 +42,8 @@ class Controls {
     bool panelTakes(const KeyEvent& event);
     void catchMouse(bool caught);
     void chooseTool(Tool tool);
-    void cancelTools();  // what they are about, as if it hadn't been
+    void cancelTools();   // what they are about, as if it hadn't been
+    bool takeBackDrag();  // what the mouse is about with the tool; false: nothing
     void hover();
 
     Workspace& work_;

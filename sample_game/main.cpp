@@ -31,7 +31,8 @@ int main(int argc, char** argv) {
     cli.add_option("--ui-scale", options.uiScale, "of letters and panels, 0.5 to 4; default: as the display says")
         ->check(CLI::Range(.5, 4.));
     cli.add_option("--frames", options.frames, "ends after so many frames; 0: when the window is closed")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1000000000));
     cli.add_flag("--turn", options.turn,
                  "turns the view by two degrees in each of --frames, as a drag does, and tells how long a frame takes");
     cli.add_option("--screenshot", options.screenshot, "writes the last of --frames as PNG");
@@ -48,15 +49,12 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "espalier-sample: %s\n", message.c_str());
         return 2;
     };
-    char rest = 0;
-    if (std::sscanf(size.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2 || options.width < 64 ||
-        options.height < 64 || options.width > 16384 || options.height > 16384)
-        return fail("--size takes WIDTHxHEIGHT, 64 to 16384 each, not '" + size + "'");
-    for (const std::string& layer : layers) {
-        const size_t sign = layer.find('=');
-        if (sign == std::string::npos || sign == 0) return fail("--layer takes NAME=FILE, not '" + layer + "'");
-        options.request.layers.push_back({layer.substr(0, sign), layer.substr(sign + 1)});
-    }
+    const auto window = espalier::sizeSaid(size, 64, 16384);
+    if (!window) return fail("--size takes WIDTHxHEIGHT, 64 to 16384 each, not '" + size + "'");
+    options.width = int(window->first);
+    options.height = int(window->second);
+    if (const std::string wrong = espalier::takeLayers(layers, options.request.layers); !wrong.empty())
+        return fail(wrong);
     if (options.turn && options.frames < sample::AppOptions::kLeastTurn)
         return fail("--turn takes --frames of " + std::to_string(sample::AppOptions::kLeastTurn) + " or more");
     if (!options.screenshot.empty() && options.frames == 0)

@@ -138,8 +138,10 @@ bool Navigation::step(Workspace& work, const Input& input, float seconds, bool t
         const auto meets = [&](glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
             return work.meets({from, along}, reach, hit);
         };
+        if (work.camera.eye() != walked_) work.camera.stand(meets);  // the editor or a flight has led here
         for (float left = seconds; left > 0; left -= kStep, jump_ = false)
             work.camera.walk(meets, {steps.x, steps.z}, std::min(left, kStep), fast, jump_);
+        walked_ = work.camera.eye();
     }
     jump_ = false;
     if (before != work.camera.eye()) strayed_ = true, wheeled_.reset();

@@ -41,6 +41,7 @@ class Navigation {
     float stride_ = 0, metAt_ = 0;      // of steps in the open, where it began there; how far what came near was then
     int button_ = 0;
     glm::vec2 last_{0};
+    glm::vec3 walked_{0};  // where walking has left the camera
     bool known_ = false, flying_ = false, jump_ = false, moved_ = false;
 };
 

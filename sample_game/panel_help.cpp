@@ -30,17 +30,18 @@ void showHelp(Workspace& work) {
                          {"[ and ]", "smaller, larger brush"},
                          {"F, Shift+F, then move", "size, strength; click to keep it"},
                          {"V", "show or hide what is painted"}};
-    const Row seeds[] = {{"S, then click", "plant; drag gives the direction"},
-                         {"Ctrl+drag", "plant a row"},
-                         {"Click, Shift+click, Shift+drag", "choose one, one more, several"},
-                         {"Drag a seed, its arrow", "move, turn what is chosen"},
-                         {"G, R", "move, turn the chosen seeds; a click ends it, Esc takes it back"},
-                         {"Shift+D or Ctrl+D", "copies of the chosen seeds, to be moved as with G"},
-                         {"A, Alt+A, X or Del", "choose all, none, remove"},
-                         {"Shift+R", "other random numbers for all"},
-                         {"P, then click", "a branch; [ picks its parent, Del prunes it"},
-                         {"H, then click", "a house; drag its corners, choose its edges"},
-                         {"Ctrl+drag, Del", "a new corner in an edge, the chosen edge's corner goes"}};
+    const Row seeds[] = {
+        {"S, then click", "plant; drag gives the direction"},
+        {"Ctrl+drag", "plant a row"},
+        {"Click, Shift+click, Shift+drag", "choose one, one more, several"},
+        {"Drag a seed, its arrow", "move, turn what is chosen"},
+        {"G, R", "move, turn the chosen seeds; a click ends it; Esc, Ctrl+Z or the right button take it back"},
+        {"Shift+D or Ctrl+D", "copies of the chosen seeds, to be moved as with G"},
+        {"A, Alt+A, X or Del", "choose all, none, remove"},
+        {"Shift+R", "other random numbers for all"},
+        {"P, then click", "a branch; [ picks its parent, Del prunes it"},
+        {"H, then click", "a house; drag its corners, choose its edges"},
+        {"Ctrl+drag, Del", "a new corner in an edge, the chosen edge's corner goes"}};
     const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y", "undo, redo: of everything"},
                        {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
                        {"Ctrl+O, Ctrl+E, Ctrl+Q", "open, export the layer, quit"},
@@ -48,11 +49,12 @@ void showHelp(Workspace& work) {
                        {"F2 F3 F4 F5", "panel, statistics, grammar, atlas"},
                        {"F12", "write a screenshot"},
                        {"Esc, Q", "puts the tool away; Esc stops growth that takes long"}};
-    ImGui::SetNextWindowPos({work.window.x / 2, work.window.y / 2}, ImGuiCond_Always, {.5f, .5f});
+    const float top = ImGui::GetFrameHeight();  // the menu's bar
+    ImGui::SetNextWindowPos({work.window.x / 2, (top + work.window.y) / 2}, ImGuiCond_Always, {.5f, .5f});
     // Two tables side by side where there is room, so that all is seen at once; else it may have to be scrolled.
     const bool wide = work.window.x > 1040 * work.scale;
     ImGui::SetNextWindowSize({std::min((wide ? 1040 : 640) * work.scale, work.window.x), 0});
-    ImGui::SetNextWindowSizeConstraints({0, 0}, {work.window.x, work.window.y});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {work.window.x, std::max(work.window.y - top, top)});
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize | kQuiet;
     if (ImGui::Begin("Keys and mouse", &work.layout.help, flags)) {

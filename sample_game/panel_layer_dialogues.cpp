@@ -56,10 +56,11 @@ void layerDialogues(Workspace& work, Session& session) {
     const size_t surfaces = town ? 1 : work.scene().surfaces.size();
     const std::string others =
         surfaces > 1 ? "\nIt is the first surface's; those of the others are called so, with -1, -2 ..." : "";
-    const std::string read = (town ? "Picture of the town from above, north up (.png, .exr):"
-                                   : "Picture over the surface's atlas (F5), as Export writes it (.png, .exr):") +
-                             others;
-    const std::string written = "File of the picture (.png: 16 bits, .exr: floats):" + others;
+    const std::string read =
+        (town ? "Picture of " + d.layer + " over the town, from above, north up (.png, .exr):"
+              : "Picture of " + d.layer + " over the surface's atlas (F5), as Export writes it (.png, .exr):") +
+        others;
+    const std::string written = "File of the picture of " + d.layer + " (.png: 16 bits, .exr: floats):" + others;
     const std::vector<std::string> endings{".png", ".exr"};
     askPath(work, session, {"Import a layer", read.c_str(), "Import", d.picture, endings},
             [&](const char* file) { importFrom(work, session, town, file); });

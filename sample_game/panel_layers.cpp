@@ -90,16 +90,20 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     ImGui::PopStyleVar();
     ImGui::NewLine();
     ImGui::PushTextWrapPos(0);
-    if (!layer.painted && !layer.colour() && brush.value == layer.fill[0]) {
+    const bool changesNothing = !layer.painted && !layer.colour() && brush.value == layer.fill[0];
+    if (changesNothing) {
         char text[200];
         std::snprintf(text, sizeof text,
                       "All of %s is %.2g, and the brush paints %.2g: a stroke changes nothing. Clear it first.",
                       layer.name.c_str(), layer.fill[0], brush.value);
         hint(text);
     }
-    if (!layer.painted && !layer.colour() && brush.value != layer.fill[0])
-        ImGui::TextDisabled("Not painted yet: all of it is %.2g.", layer.fill[0]);
-    if (!layer.painted && layer.colour()) ImGui::TextDisabled("Not painted yet.");
+    // A line in either case, so that the first stroke moves nothing from under the mouse.
+    const char* now = layer.painted ? "Painted" : "Not painted yet";
+    if (layer.colour())
+        ImGui::TextDisabled("%s.", now);
+    else if (!changesNothing)
+        ImGui::TextDisabled("%s: %s %.2g.", now, layer.painted ? "elsewhere it is" : "all of it is", layer.fill[0]);
     if (const size_t rest = layer.label.find(": "); rest != std::string::npos && !layer.readers.empty())
         ImGui::TextDisabled("%s.", layer.label.c_str() + rest + 2);
     if (layer.town) ImGui::TextDisabled("Drag over the roofs: paint falls straight down.");

@@ -95,15 +95,25 @@ std::string fitted(const Hint& hint, float room) {
 }
 
 // A red dot, so far from the bar's right end.
-void recordingSign(float end) {
+// What is open, at the bar's right end: as much of its name as there is room for beside the menus.
+void showName(const Workspace& work, const Session& session) {
     constexpr const char* kSign = "REC";
-    const float gap = ImGui::GetFontSize(), wide = ImGui::CalcTextSize(kSign).x + 2 * gap;
-    ImGui::SetCursorPosX(ImGui::GetWindowWidth() - end - wide);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::GetWindowDrawList()->AddCircleFilled({at.x + gap / 2, at.y + ImGui::GetFrameHeight() / 2}, gap * .35f,
-                                                ImColor(kBad));
-    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + gap);
-    ImGui::TextColored(kBad, "%s", kSign);
+    const float gap = ImGui::GetFontSize(), sign = session.recording() ? ImGui::CalcTextSize(kSign).x + 2 * gap : 0;
+    const char* mark = session.modified(work) ? " *" : "";
+    const std::string name = session.name(work);
+    const float end = ImGui::GetWindowWidth() - 12 * work.scale - ImGui::CalcTextSize(mark).x;
+    const std::string shown = shortened(name, std::max(end - sign - ImGui::GetCursorPosX(), 0.f));
+    ImGui::SetCursorPosX(std::max(ImGui::GetCursorPosX(), end - sign - ImGui::CalcTextSize(shown.c_str()).x));
+    if (session.recording()) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddCircleFilled({at.x + gap / 2, at.y + ImGui::GetFrameHeight() / 2}, gap * .35f,
+                                                    ImColor(kBad));
+        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + gap);
+        ImGui::TextColored(kBad, "%s", kSign);
+        ImGui::SameLine(0, gap);
+    }
+    ImGui::TextDisabled("%s%s", shown.c_str(), mark);
+    if (shown != name) toolTip(name.c_str());
 }
 
 }  // namespace
@@ -161,12 +171,7 @@ void showMenu(Workspace& work, Session& session) {
             ImGui::MenuItem("Keys and mouse", "F1", &work.layout.help);
             ImGui::EndMenu();
         }
-        std::string name = session.name(work);
-        if (session.modified(work)) name += " *";
-        const float wide = ImGui::CalcTextSize(name.c_str()).x + 12 * work.scale;
-        if (session.recording()) recordingSign(wide);
-        ImGui::SetCursorPosX(ImGui::GetWindowWidth() - wide);
-        ImGui::TextDisabled("%s", name.c_str());
+        showName(work, session);
         ImGui::EndMainMenuBar();
     }
 }

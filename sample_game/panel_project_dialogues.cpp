@@ -91,7 +91,10 @@ void leave(Session& session) {
 void leavingDialogue(Workspace& work, Session& session) {
     if (!beginDialogue("Unsaved changes")) return;
     Dialogues& d = dialogues();
-    say(session.name(work) + " has changes that aren't saved.");
+    const std::string next = !d.next           ? ""
+                             : d.next->empty() ? "Before the program ends:\n"
+                                               : "Before " + fs::path(*d.next).filename().string() + " is opened:\n";
+    say(next + session.name(work) + " has changes that aren't saved.");
     const bool saves = ImGui::Button("Save") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
     ImGui::SameLine();
     const bool gives = ImGui::Button("Don't save");
@@ -187,8 +190,10 @@ void projectDialogues(Workspace& work, Session& session) {
              {".json", ".glb"},
              true},
             [&](const char* file) {
-                askToLeave(work, session, file);
-                d.turn = Turn::done;
+                // What can't be opened is told before anybody is asked about unsaved work.
+                const bool good = espalier::scene::mayOpen(file, work.error);
+                if (good) askToLeave(work, session, file);
+                d.turn = turnOf(work, good);
             });
     recoveryDialogue(session);
     leavingDialogue(work, session);

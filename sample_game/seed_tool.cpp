@@ -264,7 +264,6 @@ void SeedTool::remove(Workspace& work) {
         work.say("No seed is chosen: click one");
     else
         work.perform(action);
-    work.selected.clear();
 }
 
 void SeedTool::selectBox(Workspace& work) const {

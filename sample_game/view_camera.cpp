@@ -141,6 +141,15 @@ float ViewCamera::hurry(float steps) {
     return haste_ * std::clamp(reach_ * .2f, .3f, 12.f);
 }
 
+void ViewCamera::stand(const Meets& meets) {
+    constexpr float kFar = 1e6f;
+    EspHit ground;
+    const bool above = meets(eye_, {0, -1, 0}, kFar, ground);
+    if (above ? ground.distance < kEyeHeight : meets(eye_, {0, 1, 0}, kFar, ground))
+        eye_.y = ground.position[1] + kEyeHeight;
+    fall_ = 0;
+}
+
 void ViewCamera::walk(const Meets& meets, glm::vec2 rightAhead, float seconds, bool fast, bool jump) {
     const glm::vec3 level{-std::sin(yaw_), 0, -std::cos(yaw_)};
     const float speed = (fast ? 3.4f : 1.7f) / std::max(1.f, glm::length(rightAhead));

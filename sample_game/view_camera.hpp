@@ -47,6 +47,8 @@ class ViewCamera {
     void fly(glm::vec3 steps, float seconds, bool fast);
     float hurry(float steps);  // flies faster (positive) or slower from now on; returns how fast, metres a second
     // ---- Game: on the ground, with a body that walls stop and steps don't. Falls if there is nothing below.
+    // Before the first step: feet that would be in the ground are put onto it; who is below all ground, above.
+    void stand(const Meets& meets);
     void walk(const Meets& meets, glm::vec2 rightAhead, float seconds, bool fast, bool jump);
     bool inAir() const { return fall_ != 0; }  // jumping or falling, so that there is more to walk without steps
 

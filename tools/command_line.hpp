@@ -1,10 +1,15 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace espalier {
@@ -22,6 +27,40 @@ inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv)
         return app.exit(e) ? 2 : 0;
     }
     return std::nullopt;
+}
+
+// "1280x720": two whole numbers from `least` to `most`. Nothing: the text says something else.
+inline std::optional<std::pair<uint32_t, uint32_t>> sizeSaid(std::string_view text, uint32_t least, uint32_t most) {
+    const auto number = [&](std::string_view digits) {
+        uint32_t value = 0;
+        const auto [end, wrong] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+        return wrong == std::errc() && end == digits.data() + digits.size() && value >= least && value <= most ? value
+                                                                                                               : 0;
+    };
+    const size_t by = std::min(text.find('x'), text.size());
+    const uint32_t width = number(text.substr(0, by)), height = number(text.substr(std::min(by + 1, text.size())));
+    if (width == 0 || height == 0) return std::nullopt;
+    return std::pair(width, height);
+}
+
+// "NAME=FILE", neither of them empty. Nothing: the text says something else.
+inline std::optional<std::pair<std::string, std::string>> namedFileSaid(const std::string& text) {
+    const size_t sign = text.find('=');
+    if (sign == std::string::npos || sign == 0 || sign + 1 == text.size()) return std::nullopt;
+    return std::pair(text.substr(0, sign), text.substr(sign + 1));
+}
+
+// What --layer NAME=FILE has said, each layer once; else what is wrong with it.
+inline std::string takeLayers(const std::vector<std::string>& said,
+                              std::vector<std::pair<std::string, std::string>>& layers) {
+    for (const std::string& text : said) {
+        const auto read = namedFileSaid(text);
+        if (!read) return "--layer takes NAME=FILE, not '" + text + "'";
+        for (const auto& [name, file] : layers)
+            if (name == read->first) return "--layer: '" + name + "' comes twice";
+        layers.push_back(*read);
+    }
+    return {};
 }
 
 // Whether both lead to one file, be it there already or not.

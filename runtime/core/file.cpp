@@ -32,17 +32,18 @@ class Descriptor {
 
 template <class Container>
 Result<Container> readWhole(const std::filesystem::path& path) {
-    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // a pipe may have no other end
     if (file.get() < 0) return systemFailure(path, "cannot be opened", errno);
     struct stat info {};
     if (::fstat(file.get(), &info) != 0) return systemFailure(path, "cannot be read", errno);
     if (S_ISDIR(info.st_mode)) return Failure(path.string(), "is a folder, not a file");
     if (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode)) return Failure(path.string(), "is a device, not a file");
+    if (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode)) return Failure(path.string(), "is a pipe, not a file");
     try {
         Container bytes;
         bytes.resize(size_t(info.st_size));
         size_t have = 0;
-        for (;;) {  // pipes and growing files have no size to trust
+        for (;;) {  // growing files and those of /proc have no size to trust
             if (have == bytes.size()) bytes.resize(have + 65536);
             ssize_t got = ::read(file.get(), bytes.data() + have, bytes.size() - have);
             if (got < 0 && errno == EINTR) continue;

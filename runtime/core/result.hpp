@@ -62,4 +62,12 @@ class [[nodiscard]] Result {
 struct Done {};
 using Status = Result<Done>;
 
+// What was made takes the place of what `into` holds, which stays where nothing could be made.
+template <class T, class U>
+Status assign(T& into, Result<U> made) {
+    if (!made) return std::move(made.failure());
+    into = std::move(*made);
+    return Done{};
+}
+
 }  // namespace espalier

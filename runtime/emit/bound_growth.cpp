@@ -101,10 +101,7 @@ Result<BoundGrowth::Held> BoundGrowth::makeHeld(const GrowthView& growth, uint32
 Status BoundGrowth::makeOrder(Buffer& order, const Held& held) {
     const uint64_t bytes = (held.numbers() + held.numbers() / 2 + 32 * kAllCells) * 4;
     if (order && order.size() >= bytes) return Done{};
-    Result<Buffer> made = Buffer::create(*device_, "emit order", bytes);
-    if (!made) return made.failure();
-    order = std::move(*made);
-    return Done{};
+    return assign(order, Buffer::create(*device_, "emit order", bytes));
 }
 
 bool BoundGrowth::trim(const GrowthView& growth) {

@@ -50,9 +50,7 @@ Status BoundGrowth::carry(Commands& commands, const EmitInputs& inputs, uint32_t
     const bool stays = fits && (!moved || native);
     Held other;
     if (!stays) {
-        Result<Held> made = makeHeld(growth, leaves);
-        if (!made) return made.failure();
-        other = std::move(*made);
+        if (Status made = assign(other, makeHeld(growth, leaves)); !made) return made.failure();
     }
     const Held& to = stays ? held_ : other;
     if (Status s = makeOrder(spareOrder_, to); !s) return s;

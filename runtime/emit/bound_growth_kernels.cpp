@@ -22,9 +22,8 @@ Status BoundGrowth::viewRecords(const GrowthView& growth, uint32_t nodesBefore) 
     for (const auto& row : rows) {
         row.view = {};
         const Buffer& buffer = fetches_ ? *row.buffer : noTexels_;
-        Result<TexelView> made = TexelView::create(*device_, buffer, VK_FORMAT_R32G32B32A32_UINT);
-        if (!made) return made.failure();
-        row.view = std::move(*made);
+        if (Status made = assign(row.view, TexelView::create(*device_, buffer, VK_FORMAT_R32G32B32A32_UINT)); !made)
+            return made.failure();
     }
     // Four numbers a texel.
     const Buffer* touched = growth.touched;

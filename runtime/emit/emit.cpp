@@ -17,18 +17,10 @@ constexpr float kWholePixels = 8, kLeastShare = 0.12f;
 Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
     Emit emit;
     emit.device_ = &device;
-    Result<BoundGrowth> bound = BoundGrowth::create(device, terminals);
-    if (!bound) return bound.failure();
-    emit.bound_ = std::move(*bound);
-    Result<CulledView> view = CulledView::create(device, terminals);
-    if (!view) return view.failure();
-    emit.view_ = std::move(*view);
-    Result<TileWatch> tiles = TileWatch::create(device);
-    if (!tiles) return tiles.failure();
-    emit.tiles_ = std::move(*tiles);
-    Result<TriangleWriter> triangles = TriangleWriter::create(device, terminals);
-    if (!triangles) return triangles.failure();
-    emit.triangles_ = std::move(*triangles);
+    if (Status made = assign(emit.bound_, BoundGrowth::create(device, terminals)); !made) return made.failure();
+    if (Status made = assign(emit.view_, CulledView::create(device, terminals)); !made) return made.failure();
+    if (Status made = assign(emit.tiles_, TileWatch::create(device)); !made) return made.failure();
+    if (Status made = assign(emit.triangles_, TriangleWriter::create(device, terminals)); !made) return made.failure();
     return emit;
 }
 

@@ -51,15 +51,16 @@ class GridWriter {
         const glm::vec3 root(float(g_.colour & 255u), float(g_.colour >> 8 & 255u), float(g_.colour >> 16 & 255u));
         colour_ = root * root / (255.0f * 255.0f);
     }
-    void run() {
-        if (!lod_) return;
-        if (g_.firstRow == kNoIndex) return cell(0, 0, true);
-        for (uint32_t row = 0; row < g_.cells >> 16; ++row) {
+    bool run(size_t most) {
+        if (lod_ && g_.firstRow == kNoIndex) cell(0, 0, true);
+        const uint32_t rows = lod_ && g_.firstRow != kNoIndex ? g_.cells >> 16 : 0;
+        for (uint32_t row = 0; row < rows && out_.bytes() <= most; ++row) {
             const RoofRun run = env_.runs.v[g_.firstRow + row];
             const uint32_t whole = runFirst(run.whole), wholeEnd = whole + runCount(run.whole);
             for (uint32_t c = runFirst(run.touched); c < runFirst(run.touched) + runCount(run.touched); ++c)
                 if (!drops_ || !cellDropped(env_, g_, c, row)) cell(c, row, c >= whole && c < wholeEnd);
         }
+        return out_.bytes() <= most;
     }
 
   private:
@@ -143,8 +144,8 @@ std::vector<RoofMesh> terminalBounds(const TerminalData& data) {
     return all;
 }
 
-void appendGrid(const RoofEnv& env, const RoofGrid& grid, const TerminalData& meshes, RoofTriangles& out) {
-    GridWriter(env, grid, meshes, out).run();
+bool appendGrid(const RoofEnv& env, const RoofGrid& grid, const TerminalData& meshes, RoofTriangles& out, size_t most) {
+    return GridWriter(env, grid, meshes, out).run(most);
 }
 
 }  // namespace espalier

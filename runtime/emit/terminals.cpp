@@ -113,9 +113,8 @@ Status Terminals::makeTable(Device& device, bool repeats) {
     };
     if (Status s = make(vertices_, "terminal vertices", data_.vertices); !s) return s;
     if (!data_.vertices.empty()) {
-        Result<TexelView> texels = TexelView::create(device, vertices_, VK_FORMAT_R32G32_UINT);
-        if (!texels) return texels.failure();
-        vertexTexels_ = std::move(*texels);
+        if (Status made = assign(vertexTexels_, TexelView::create(device, vertices_, VK_FORMAT_R32G32_UINT)); !made)
+            return made.failure();
     }
     if (Status s = make(indices_, "terminal indices", data_.indices); !s) return s;
     return make(batches_, "terminal batches", batches);
@@ -129,10 +128,7 @@ Status Terminals::makeKernelTable(Device& device) {
     kernelTable_.variantCount = uint32_t(table_.variants.size());
     kernelTable_.bucketCount = uint32_t(table_.buckets.size());
     kernelTable_.barkBuckets = table_.barkBuckets;
-    Result<Buffer> made = makeBuffer(device, "terminal table", std::vector<EmitTable>{kernelTable_});
-    if (!made) return made.failure();
-    tableBuffer_ = std::move(*made);
-    return Done{};
+    return assign(tableBuffer_, makeBuffer(device, "terminal table", std::vector<EmitTable>{kernelTable_}));
 }
 
 Status Terminals::makePictures(Device& device) {
@@ -140,18 +136,13 @@ Status Terminals::makePictures(Device& device) {
                     std::span<const uint8_t> rgba) -> Status {
         ImageDesc desc{.name = name, .format = format, .width = width, .height = height};
         desc.levels = 0;
-        Result<Image> made = Image::create(device, desc);
-        if (!made) return made.failure();
-        image = std::move(*made);
+        if (Status made = assign(image, Image::create(device, desc)); !made) return made.failure();
         return fillImage(device, image, std::as_bytes(rgba));
     };
     const uint8_t white[4] = {255, 255, 255, 255}, flat[4] = {128, 128, 255, 255};
     auto makeColor = [&](Image& image, const char* name, uint32_t width, uint32_t height,
                          std::span<const uint8_t> rgba) -> Status {
-        Result<Image> made = makeColorTexture(device, name, width, height, rgba);
-        if (!made) return made.failure();
-        image = std::move(*made);
-        return Done{};
+        return assign(image, makeColorTexture(device, name, width, height, rgba));
     };
     if (Status s = makeColor(white_, "white", 1, 1, white); !s) return s;
     if (Status s = make(flat_, "flat normal", VK_FORMAT_R8G8B8A8_UNORM, 1, 1, flat); !s) return s;

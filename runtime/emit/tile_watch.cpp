@@ -26,12 +26,9 @@ struct TakeTiles {
 Result<TileWatch> TileWatch::create(Device& device) {
     TileWatch out;
     out.device_ = &device;
-    Result<Program> take = Program::compute(device, "emit/take_tiles.comp");
-    if (!take) return take.failure();
-    out.take_ = std::move(*take);
-    Result<Buffer> record = Buffer::create(device, "watched view", sizeof(EmitView));
-    if (!record) return record.failure();
-    out.record_ = std::move(*record);
+    if (Status made = assign(out.take_, Program::compute(device, "emit/take_tiles.comp")); !made) return made.failure();
+    if (Status made = assign(out.record_, Buffer::create(device, "watched view", sizeof(EmitView))); !made)
+        return made.failure();
     return out;
 }
 

@@ -15,10 +15,7 @@ Status GpuGrowth::setUp() {
 Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
     if (buffer && buffer.size() >= bytes) return Done{};
     buffer = {};
-    Result<Buffer> made = Buffer::create(device_, name, bytes, use);
-    if (!made) return made.failure();
-    buffer = std::move(*made);
-    return Done{};
+    return assign(buffer, Buffer::create(device_, name, bytes, use));
 }
 
 // Room for the chains of leaves on nodes. What gets new room has to be chained anew.

@@ -88,7 +88,7 @@ struct FixedFunctions {
         raster.depthBiasConstantFactor = d.depthBiasConstant;
         raster.depthBiasSlopeFactor = d.depthBiasSlope;
         multisample.rasterizationSamples = VkSampleCountFlagBits(d.samples);
-        depth.depthTestEnable = d.depth != VK_FORMAT_UNDEFINED && d.depthTest;
+        depth.depthTestEnable = d.depth != VK_FORMAT_UNDEFINED;
         depth.depthWriteEnable = d.depth != VK_FORMAT_UNDEFINED && d.depthWrite;
         depth.depthCompareOp = d.depthCompare;
         for (const VertexInput& input : d.inputs) attributes.push_back({input.location, 0, input.format, input.offset});

@@ -40,7 +40,6 @@ struct GraphicsDesc {
     uint32_t vertexBytes = 0;         // from one vertex to the next
     std::vector<VkFormat> colors;
     VkFormat depth = VK_FORMAT_UNDEFINED;
-    bool depthTest = true;
     bool depthWrite = true;
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS_OR_EQUAL;
     float depthBiasConstant = 0;

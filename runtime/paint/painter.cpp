@@ -43,10 +43,7 @@ PaintEnv environment(const Canvas& canvas, uint64_t blocks, size_t count) {
 
 Status ensure(Device& device, Buffer& buffer, const char* name, uint64_t bytes) {
     if (buffer && buffer.size() >= bytes) return Done{};
-    Result<Buffer> made = Buffer::create(device, name, std::max(bytes, 2 * buffer.size()));
-    if (!made) return made.failure();
-    buffer = std::move(*made);
-    return Done{};
+    return assign(buffer, Buffer::create(device, name, std::max(bytes, 2 * buffer.size())));
 }
 
 // A buffer with room for so many items that holds the first `kept` of `before`; none if `before` has that room.

@@ -1,5 +1,6 @@
 // What was painted over a surface, carried to a later bake of it.
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/layer_resample.hpp"
@@ -38,8 +39,10 @@ EspResult espCarryLayer(const EspCarry* carry, const float* texels, uint32_t wid
         if (!carry || !texels || !out) return failAlone(ESP_INVALID_ARGUMENT, "espCarryLayer: null pointer");
         if (width < 1 || height < 1 || width > kMaxLayerSide || height > kMaxLayerSide)
             return failAlone(ESP_INVALID_ARGUMENT, "espCarryLayer: a layer has 1 to 8192 texels a side");
-        const CarriedLayer layer =
-            carry->match.carry({width, height, std::vector<float>(texels, texels + size_t(width) * height)}, fresh);
+        if (!std::isfinite(fresh)) return failAlone(ESP_INVALID_ARGUMENT, "espCarryLayer: `fresh` isn't finite");
+        std::vector<float> values(texels, texels + size_t(width) * height);
+        std::ranges::transform(values, values.begin(), layerValue);
+        const CarriedLayer layer = carry->match.carry({width, height, std::move(values)}, layerValue(fresh));
         std::ranges::copy(layer.layer.texels, out);
         if (carried) *carried = {layer.fresh, layer.lost};
         return ESP_OK;

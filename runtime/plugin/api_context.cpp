@@ -136,7 +136,10 @@ EspResult failWork(const EspContext* context, const Failure& failure) {
 
 std::string whyUnreadable(const char* path) {
     std::error_code error;
-    if (std::filesystem::is_directory(path, error)) return std::string(path) + ": is a folder";
+    using Type = std::filesystem::file_type;
+    const Type type = std::filesystem::status(path, error).type();
+    if (type == Type::directory) return std::string(path) + ": is a folder";
+    if (type == Type::fifo || type == Type::socket) return std::string(path) + ": is a pipe, not a file";
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     return file ? "" : std::string(path) + ": can't be read: " + std::strerror(errno);

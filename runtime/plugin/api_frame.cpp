@@ -241,6 +241,7 @@ EspLook espDefaultLook(void) {
 EspResult espViewColour(EspView view, float amount, float rgb[3], float* most) {
     return guardedAlone([&] {
         if (!rgb || !most) return failAlone(ESP_INVALID_ARGUMENT, "espViewColour: null pointer");
+        if (!std::isfinite(amount)) return failAlone(ESP_INVALID_ARGUMENT, "espViewColour: the amount isn't finite");
         glm::vec3 colour;
         switch (view) {
             case ESP_VIEW_LOD:

@@ -26,7 +26,7 @@ std::vector<float> laidOut(const EspContext& context, const SurfaceData& surface
     for (uint32_t y = 0; y < def.height; ++y)
         for (uint32_t x = 0; x < def.width; ++x) {
             const float value = def.texels[size_t(y) * def.width + x];
-            texels[texelIndex(def.width, x, y)] = value > 0 ? std::min(value, 1.f) : 0;  // NaN becomes 0
+            texels[texelIndex(def.width, x, y)] = layerValue(value);
         }
     return texels;
 }

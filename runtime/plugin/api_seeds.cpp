@@ -74,7 +74,7 @@ EspResult plant(EspContext& context, const EspSeedDef& def, EspSeed* out) {
     seed.grammar = def.grammar.id;
     seed.symbol = def.symbol ? def.symbol : "";
     if (!place(context, vec(def.position), vec(def.direction), seed))
-        return fail(&context, ESP_INVALID_ARGUMENT, "espPlant: there is no surface to plant on");
+        return fail(&context, ESP_INVALID_ARGUMENT, std::string("espPlant: ") + whyNoneNear(context));
     if (!context.twins.take(def.number, def.twin, seed.twin))
         return fail(&context, ESP_INVALID_ARGUMENT,
                     "espPlant: twin " + std::to_string(def.twin) + " of number " + std::to_string(def.number) +
@@ -267,7 +267,7 @@ EspResult espMoveSeed(EspContext* context, EspSeed id, const float position[3], 
         if (!seed || !position || !direction || !finite(position) || !finite(direction))
             return fail(context, ESP_INVALID_ARGUMENT, "espMoveSeed: no such seed, or a place that isn't one");
         if (!place(*context, vec(position), vec(direction), *seed))
-            return fail(context, ESP_INVALID_ARGUMENT, "espMoveSeed: there is no surface");
+            return fail(context, ESP_INVALID_ARGUMENT, std::string("espMoveSeed: ") + whyNoneNear(*context));
         ++context->revision;
         return ESP_OK;
     });

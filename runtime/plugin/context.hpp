@@ -215,6 +215,7 @@ struct SurfacePoint {
 glm::vec3 unitOf(glm::vec3 v);
 std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction);
 std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point);
+const char* whyNoneNear(const EspContext& context);  // for messages, where there is no nearest
 // About the nearest ground around a place on bare ground that is seen by who looks straight at it: not what lies behind
 // a pane.
 std::optional<SurfacePoint> groundBeside(const EspContext& context, const SurfacePoint& bare);

@@ -40,7 +40,7 @@ struct GreyMap {
 
 GreyMap copyOf(const LayerPicture& source) {
     GreyMap picture{{source.texels.begin(), source.texels.end()}, int(source.width), int(source.height)};
-    for (float& value : picture.texels) value = value > 0 ? std::min(value, 1.f) : 0;  // NaN becomes 0
+    for (float& value : picture.texels) value = layerValue(value);
     return picture;
 }
 

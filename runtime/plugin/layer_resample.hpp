@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -9,6 +10,11 @@
 namespace espalier {
 
 inline constexpr uint32_t kMaxLayerSide = 8192;  // texels, of pictures that hosts hand in
+
+// What a layer holds of a host's value.
+inline float layerValue(float value) {
+    return value > 0 ? std::min(value, 1.f) : 0;  // NaN becomes 0
+}
 
 // A single-channel picture as a layer hands it in: rows from v = 0 on, at least 1 × 1. It is read bilinearly, values
 // limited to [0,1] (NaN: 0).

@@ -110,6 +110,10 @@ glm::vec3 unitOf(glm::vec3 v) {
     return glm::normalize(v / std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));
 }
 
+const char* whyNoneNear(const EspContext& context) {
+    return context.surfaces.size() ? "no surface is within reach of that place" : "there is no surface";
+}
+
 }  // namespace espalier
 
 using namespace espalier;
@@ -155,7 +159,7 @@ EspResult espNearest(const EspContext* context, const float point[3], EspHit* ou
         if (!point || !out || !finite(point))
             return fail(context, ESP_INVALID_ARGUMENT, "espNearest: null pointer, or a point that isn't finite");
         const auto found = nearestOnSurfaces(*context, {point[0], point[1], point[2]});
-        if (!found) return fail(context, ESP_INVALID_ARGUMENT, "espNearest: there is no surface");
+        if (!found) return fail(context, ESP_INVALID_ARGUMENT, std::string("espNearest: ") + whyNoneNear(*context));
         fill(*found, out);
         return ESP_OK;
     });

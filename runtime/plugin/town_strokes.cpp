@@ -54,7 +54,7 @@ std::vector<float> resampled(const float* texels, uint32_t width, uint32_t heigh
     std::vector<float> out(size_t(side) * side);
     const auto at = [&](uint32_t x, uint32_t y) {
         const float v = texels[size_t(y) * width + x];
-        return v > 0 ? std::min(v, 1.f) : 0;  // NaN becomes 0
+        return layerValue(v);
     };
     const auto split = [&](uint32_t i, uint32_t count, uint32_t& low, uint32_t& high) {
         const float g = std::clamp((float(i) + .5f) * float(count) / float(side) - .5f, 0.f, float(count) - 1);

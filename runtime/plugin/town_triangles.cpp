@@ -47,9 +47,9 @@ EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices,
         part.normals.clear();
         part.colours.clear();
         part.indices.clear();
-        appendGrid(env, grid, *context.roofMeshes, part);
-        if (vertices.size() + indices.size() - plants + part.positions.size() * 16 + part.indices.size() * 4 >
-            kMostBytes)
+        const bool all = appendGrid(env, grid, *context.roofMeshes, part, kMostBytes);
+        if (!all || vertices.size() + indices.size() - plants + part.positions.size() * 16 + part.indices.size() * 4 >
+                        kMostBytes)
             return fail(&context, ESP_OUT_OF_MEMORY, "espMaterialise: the town's triangles are more than 2 GiB");
         const uint32_t first = uint32_t(vertices.size() / sizeof(TriangleVertex));
         for (size_t i = 0; i < part.positions.size(); ++i)

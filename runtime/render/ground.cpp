@@ -163,9 +163,8 @@ Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, ui
         if (!isAskedOf(device, Shading(shading))) continue;
         desc.options.constants = constantsOf(Shading(shading));
         desc.blend = blendOf(Shading(shading));
-        Result<Program> program = Program::graphics(device, desc);
-        if (!program) return program.failure();
-        ground.programs_[shading] = std::move(*program);
+        if (Status made = assign(ground.programs_[shading], Program::graphics(device, desc)); !made)
+            return made.failure();
     }
     ImageDesc tile{.name = "ground noise", .width = kSide, .height = kSide};
     tile.levels = 0;
@@ -182,14 +181,12 @@ Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, ui
     for (const bool quick : {false, true}) {
         SamplerDesc sampler{.name = "ground noise", .blendMips = !quick};
         sampler.anisotropy = device.info().cpu ? 1.0f : 8.0f;
-        Result<Sampler> repeated = Sampler::create(device, sampler);
-        if (!repeated) return repeated.failure();
-        ground.samplers_[quick] = std::move(*repeated);
+        if (Status made = assign(ground.samplers_[quick], Sampler::create(device, sampler)); !made)
+            return made.failure();
         sampler.name = "site map";
         sampler.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-        Result<Sampler> clamped = Sampler::create(device, sampler);
-        if (!clamped) return clamped.failure();
-        ground.siteSamplers_[quick] = std::move(*clamped);
+        if (Status made = assign(ground.siteSamplers_[quick], Sampler::create(device, sampler)); !made)
+            return made.failure();
     }
     return ground;
 }

@@ -3,19 +3,12 @@
 #include "runtime/render/host_merge.hpp"
 
 #include "runtime/render/host_formats.hpp"
+#include "runtime/render/shading.hpp"
 
 namespace espalier {
 namespace {
 
 constexpr VkFormat kNearFormat = VK_FORMAT_R32_SFLOAT;
-
-GraphicsDesc fullscreen(const char* fragment) {
-    GraphicsDesc desc;
-    desc.name = desc.fragment = fragment;
-    desc.vertex = "render/fullscreen.vert";
-    desc.depthCompare = VK_COMPARE_OP_ALWAYS;
-    return desc;
-}
 
 DrawTargets onto(const Image& image) {
     DrawTargets targets;
@@ -44,9 +37,7 @@ Result<std::unique_ptr<HostMerge>> HostMerge::create(Device& device, uint32_t sa
         const GraphicsDesc& desc;
     } rows[] = {{merge->near_, near}, {merge->begin_, begin}, {merge->grown_, grown}};
     for (const auto& row : rows) {
-        Result<Program> made = Program::graphics(device, row.desc);
-        if (!made) return made.failure();
-        row.program = std::move(*made);
+        if (Status made = assign(row.program, Program::graphics(device, row.desc)); !made) return made.failure();
     }
     Result<Sampler> sampler = Sampler::create(device, {.name = "host's picture",
                                                        .filter = VK_FILTER_NEAREST,
@@ -63,9 +54,7 @@ Status HostMerge::makeImages(uint32_t width, uint32_t height) {
     for (Image* image : {&hostNear_, &grownNear_}) {
         ImageDesc desc{.name = "host's depth", .format = kNearFormat, .width = width, .height = height};
         desc.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-        Result<Image> made = Image::create(device_, desc);
-        if (!made) return made.failure();
-        *image = std::move(*made);
+        if (Status made = assign(*image, Image::create(device_, desc)); !made) return made.failure();
     }
     return Done{};
 }
@@ -76,9 +65,7 @@ Result<const Program*> HostMerge::output(const char* fragment, VkFormat color, V
     GraphicsDesc desc = fullscreen(fragment);
     if (color != VK_FORMAT_UNDEFINED) desc.colors = {color};
     desc.depth = depth;
-    Result<Program> made = Program::graphics(device_, desc);
-    if (!made) return made.failure();
-    program = std::move(*made);
+    if (Status made = assign(program, Program::graphics(device_, desc)); !made) return made.failure();
     return &program;
 }
 

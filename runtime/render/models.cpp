@@ -39,12 +39,10 @@ void takeModelPositions(GraphicsDesc& desc, bool pictured) {
 Result<Models> Models::create(Device& device) {
     Models models;
     const uint8_t white[4] = {255, 255, 255, 255}, flat[4] = {128, 128, 255, 255};
-    Result<Image> whiteImage = makeColorTexture(device, "white", 1, 1, white);
-    if (!whiteImage) return whiteImage.failure();
-    models.white_ = std::move(*whiteImage);
-    Result<Image> flatImage = makeNormals(device, "flat normal", 1, 1, flat);
-    if (!flatImage) return flatImage.failure();
-    models.flat_ = std::move(*flatImage);
+    if (Status made = assign(models.white_, makeColorTexture(device, "white", 1, 1, white)); !made)
+        return made.failure();
+    if (Status made = assign(models.flat_, makeNormals(device, "flat normal", 1, 1, flat)); !made)
+        return made.failure();
     Result<Sampler> sampler =
         Sampler::create(device, {.name = "model textures", .anisotropy = device.info().cpu ? 1.0f : 8.0f});
     if (!sampler) return sampler.failure();
@@ -109,13 +107,9 @@ Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& mode
         }
         mesh.solidAbove = solidAbove(from, opaque, model.up);
     }
-    Result<Buffer> vertexBuffer = makeBuffer(device, "model vertices", vertices);
-    if (!vertexBuffer) return vertexBuffer.failure();
-    model.vertices = std::move(*vertexBuffer);
-    Result<Buffer> indexBuffer = makeBuffer(device, "model indices", indices);
-    if (!indexBuffer) return indexBuffer.failure();
-    model.indices = std::move(*indexBuffer);
-    return Done{};
+    if (Status made = assign(model.vertices, makeBuffer(device, "model vertices", vertices)); !made)
+        return made.failure();
+    return assign(model.indices, makeBuffer(device, "model indices", indices));
 }
 
 Status Models::uploadPictures(Device& device, const SurfaceData& data, Model& model) {

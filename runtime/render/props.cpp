@@ -110,9 +110,7 @@ Status Props::makePrograms(Device& device, VkFormat color, VkFormat depth, uint3
             desc.samples = samples;
             desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
         }
-        Result<Program> made = Program::graphics(device, desc);
-        if (!made) return made.failure();
-        r.program = std::move(*made);
+        if (Status made = assign(r.program, Program::graphics(device, desc)); !made) return made.failure();
     }
     return Done{};
 }

@@ -228,9 +228,7 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
     if (!intoOwn) {
         ImageDesc desc{.name = "host picture", .format = format, .width = target.width, .height = target.height};
         desc.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-        Result<Image> wrapped = Image::wrap(device_, desc, target.image);
-        if (!wrapped) return wrapped.failure();
-        host = std::move(*wrapped);
+        if (Status made = assign(host, Image::wrap(device_, desc, target.image)); !made) return made.failure();
         if (!view) view = host.view();
     } else {
         if (Status s = targets_.makeOwn(device_); !s) return s;

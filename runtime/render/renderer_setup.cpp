@@ -7,16 +7,6 @@ namespace {
 
 constexpr uint32_t kSmallIndices = 12;  // leaves of no more are for few pixels, as those of the last LOD are
 
-GraphicsDesc fullscreen(const char* name, const char* fragment, VkFormat format) {
-    GraphicsDesc desc;
-    desc.name = name;
-    desc.vertex = "render/fullscreen.vert";
-    desc.fragment = fragment;
-    desc.colors = {format};
-    desc.depthTest = desc.depthWrite = false;
-    return desc;
-}
-
 }  // namespace
 
 Status RendererImpl::makePrograms() {
@@ -31,10 +21,7 @@ Status RendererImpl::makePrograms() {
         desc.depthBiasSlope = 1.8f;
         if (&program == &modelDepth_) takeModelPositions(desc);
         if (&program == &modelCutDepth_) takeModelPositions(desc, true);
-        Result<Program> made = Program::graphics(device_, desc);
-        if (!made) return made.failure();
-        program = std::move(*made);
-        return Done{};
+        return assign(program, Program::graphics(device_, desc));
     };
     GraphicsDesc ahead;
     ahead.name = "model ahead";
@@ -45,21 +32,17 @@ Status RendererImpl::makePrograms() {
     takeModelPositions(ahead);
     for (Program* program : {&modelAhead_, &modelAheadFading_}) {
         if (program == &modelAheadFading_) ahead.fragment = "render/model_fade.frag";
-        Result<Program> made = Program::graphics(device_, ahead);
-        if (!made) return made.failure();
-        *program = std::move(*made);
+        if (Status made = assign(*program, Program::graphics(device_, ahead)); !made) return made.failure();
     }
-    GraphicsDesc skyDesc = fullscreen("sky", "render/sky.frag", kSceneFormat);
+    GraphicsDesc skyDesc = fullscreen("render/sky.frag");
+    skyDesc.colors = {kSceneFormat};
     skyDesc.samples = targets_.samples;
     skyDesc.depth = kDepthFormat;  // it lies at depth 0, infinitely far
-    skyDesc.depthTest = true;
     skyDesc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
     skyDesc.depthWrite = false;
     for (uint32_t hills : {0u, 1u}) {
         skyDesc.options.constants = {{kRest, hills}};
-        Result<Program> sky = Program::graphics(device_, skyDesc);
-        if (!sky) return sky.failure();
-        sky_[hills] = std::move(*sky);
+        if (Status made = assign(sky_[hills], Program::graphics(device_, skyDesc)); !made) return made.failure();
     }
     GraphicsDesc restore;
     restore.name = "shadow restore";
@@ -68,17 +51,12 @@ Status RendererImpl::makePrograms() {
     restore.depth = kDepthFormat;
     restore.depthCompare = VK_COMPARE_OP_ALWAYS;
     restore.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
-    Result<Program> restored = Program::graphics(device_, restore);
-    if (!restored) return restored.failure();
-    shadowRestore_ = std::move(*restored);
-    Result<DepthTiles> depthTiles = DepthTiles::create(device_, targets_.samples);
-    if (!depthTiles) return depthTiles.failure();
-    depthTiles_ = std::move(*depthTiles);
-    auto post = [&](Program& program, const char* name, const char* fragment, VkFormat format) -> Status {
-        Result<Program> made = Program::graphics(device_, fullscreen(name, fragment, format));
-        if (!made) return made.failure();
-        program = std::move(*made);
-        return Done{};
+    if (Status made = assign(shadowRestore_, Program::graphics(device_, restore)); !made) return made.failure();
+    if (Status made = assign(depthTiles_, DepthTiles::create(device_, targets_.samples)); !made) return made.failure();
+    auto post = [&](Program& program, const char* fragment, VkFormat format) -> Status {
+        GraphicsDesc desc = fullscreen(fragment);
+        desc.colors = {format};
+        return assign(program, Program::graphics(device_, desc));
     };
     const Status all[] = {
         shadow(modelDepth_, "model shadow", "render/model_depth.vert", ""),
@@ -86,8 +64,8 @@ Status RendererImpl::makePrograms() {
         shadow(barkDepth_, "bark shadow", "render/bark.vert", ""),
         shadow(leafDepth_, "leaf shadow", "render/leaf.vert", ""),
         shadow(leafCutDepth_, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag"),
-        post(distance_, "distance", one ? "render/depth_single.frag" : "render/depth.frag", kDistanceFormat),
-        post(occlusion_, "occlusion", "render/occlusion.frag", kOpenFormat)};
+        post(distance_, one ? "render/depth_single.frag" : "render/depth.frag", kDistanceFormat),
+        post(occlusion_, "render/occlusion.frag", kOpenFormat)};
     for (const Status& s : all)
         if (!s) return s;
     return Done{};
@@ -106,10 +84,7 @@ Status RendererImpl::makeSceneProgram(Program& program, const char* name, const 
     desc.blend = blend;
     desc.options.constants = std::move(constants);
     if (std::string_view(vertex) == "render/model.vert") takeModelVertices(desc);
-    Result<Program> made = Program::graphics(device_, desc);
-    if (!made) return made.failure();
-    program = std::move(*made);
-    return Done{};
+    return assign(program, Program::graphics(device_, desc));
 }
 
 Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading) const {
@@ -157,7 +132,8 @@ Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
     const ResolveKind kind{format, counts, isQuick(now_.shading)};
     if (auto it = resolves_.find(kind); it != resolves_.end()) return &it->second;
     const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
-    GraphicsDesc desc = fullscreen("resolve", fragment, format);
+    GraphicsDesc desc = fullscreen(fragment);
+    desc.colors = {format};
     desc.options.constants = {{kExplains, counts ? 1u : 0u}, {kQuick, isQuick(now_.shading) ? 1u : 0u}};
     Result<Program> made = Program::graphics(device_, desc);
     if (!made) return made.failure();
@@ -167,9 +143,7 @@ Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
 Status RendererImpl::setUp(TerminalData data) {
     // Four samples make a frame three times as dear on a CPU; there edges are smoothed when all is drawn.
     targets_.samples = device_.info().cpu ? 1 : 4;
-    Result<Terminals> terminals = Terminals::create(device_, std::move(data));
-    if (!terminals) return terminals.failure();
-    terminals_ = std::move(*terminals);
+    if (Status made = assign(terminals_, Terminals::create(device_, std::move(data))); !made) return made.failure();
     const TerminalTable& table = terminals_.table();
     for (uint32_t v = 0; v < table.variants.size(); ++v) {
         const VariantRecord& variant = table.variants[v];
@@ -181,15 +155,10 @@ Status RendererImpl::setUp(TerminalData data) {
             for (uint32_t b = variant.firstBucket; b <= last; ++b)
                 small_[b] = b == last || table.buckets[b].indexCount <= kSmallIndices;
     }
-    Result<Emit> emit = Emit::create(device_, terminals_);
-    if (!emit) return emit.failure();
-    emit_ = std::move(*emit);
-    Result<Models> models = Models::create(device_);
-    if (!models) return models.failure();
-    models_ = std::move(*models);
-    Result<Ground> ground = Ground::create(device_, kSceneFormat, kDepthFormat, targets_.samples);
-    if (!ground) return ground.failure();
-    ground_ = std::move(*ground);
+    if (Status made = assign(emit_, Emit::create(device_, terminals_)); !made) return made.failure();
+    if (Status made = assign(models_, Models::create(device_)); !made) return made.failure();
+    if (Status made = assign(ground_, Ground::create(device_, kSceneFormat, kDepthFormat, targets_.samples)); !made)
+        return made.failure();
     ImageDesc shadow{.name = "shadow map", .format = kDepthFormat, .width = 2 * kShadowSize, .height = kShadowSize};
     shadow.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     Result<Image> map = Image::create(device_, shadow);
@@ -214,14 +183,11 @@ Status RendererImpl::setUp(TerminalData data) {
           .mips = false}},
         {plainSampler_, {.name = "plain", .address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, .mips = false}}};
     for (const auto& s : samplers) {
-        Result<Sampler> made = Sampler::create(device_, s.desc);
-        if (!made) return made.failure();
-        s.sampler = std::move(*made);
+        if (Status made = assign(s.sampler, Sampler::create(device_, s.desc)); !made) return made.failure();
     }
     for (Buffer& frame : frames_) {
-        Result<Buffer> made = Buffer::create(device_, "frame", sizeof(FrameRecord));
-        if (!made) return made.failure();
-        frame = std::move(*made);
+        if (Status made = assign(frame, Buffer::create(device_, "frame", sizeof(FrameRecord))); !made)
+            return made.failure();
     }
     return makePrograms();
 }

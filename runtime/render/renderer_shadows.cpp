@@ -43,10 +43,7 @@ Status RendererImpl::makeStanding() {
     ImageDesc desc{
         .name = "shadows without growth", .format = kDepthFormat, .width = kShadowSize, .height = kShadowSize};
     desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
-    Result<Image> made = Image::create(device_, desc);
-    if (!made) return made.failure();
-    standing_ = std::move(*made);
-    return Done{};
+    return assign(standing_, Image::create(device_, desc));
 }
 
 // error: times what is allowed otherwise.

@@ -28,12 +28,10 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
         for (TerminalLod& lod : v.lods)
             if (lod.pixels == 0) lod.error *= kErrorScale;
     const std::vector<RoofProfile> profiles = roofProfiles(meshes);
-    Result<Buffer> uploaded = makeBuffer(device, "roof profiles", profiles);
-    if (!uploaded) return uploaded.failure();
-    out->profiles_ = std::move(*uploaded);
-    Result<Terminals> terminals = Terminals::create(device, std::move(meshes));
-    if (!terminals) return terminals.failure();
-    out->terminals_ = std::move(*terminals);
+    if (Status made = assign(out->profiles_, makeBuffer(device, "roof profiles", profiles)); !made)
+        return made.failure();
+    if (Status made = assign(out->terminals_, Terminals::create(device, std::move(meshes))); !made)
+        return made.failure();
     if (Status s = out->makePrograms(device, color, depth, samples); !s) return s.failure();
     const struct {
         Buffer& buffer;
@@ -45,9 +43,8 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
                    {out->state_, "roof draw state", sizeof(RoofDrawState), BufferUse::device},
                    {out->readback_, "roof draw counts", sizeof(RoofDrawState), BufferUse::readback}};
     for (const auto& b : buffers) {
-        Result<Buffer> made = Buffer::create(device, b.name, b.bytes, b.use);
-        if (!made) return made.failure();
-        b.buffer = std::move(*made);
+        if (Status made = assign(b.buffer, Buffer::create(device, b.name, b.bytes, b.use)); !made)
+            return made.failure();
     }
     std::fill(out->readback_.mappedAs<uint32_t>().begin(), out->readback_.mappedAs<uint32_t>().end(), 0u);
     return out;
@@ -94,9 +91,7 @@ Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, ui
             desc.depthBiasConstant = 2;
             desc.depthBiasSlope = 1.8f;
         }
-        Result<Program> made = Program::graphics(device, desc);
-        if (!made) return made.failure();
-        r.program = std::move(*made);
+        if (Status made = assign(r.program, Program::graphics(device, desc)); !made) return made.failure();
     }
     return Done{};
 }
@@ -113,9 +108,7 @@ Status RoofDraw::reserve(const RoofView& roofs) {
     for (const auto& r : rows) {
         const uint64_t bytes = std::min<uint64_t>(std::max<uint64_t>(r.count + r.count / 4, 1024), r.most) * r.size;
         if (r.buffer && r.buffer.size() >= bytes) continue;
-        Result<Buffer> made = Buffer::create(*device_, r.name, bytes);
-        if (!made) return made.failure();
-        r.buffer = std::move(*made);
+        if (Status made = assign(r.buffer, Buffer::create(*device_, r.name, bytes)); !made) return made.failure();
     }
     return Done{};
 }

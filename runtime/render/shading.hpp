@@ -37,6 +37,15 @@ inline std::vector<SpecConstant> constantsOf(Shading shading, bool rooted = fals
             {kRest, rest ? 1u : 0u}};
 }
 
+// A triangle over all of a picture, in front of whatever is there.
+inline GraphicsDesc fullscreen(const char* fragment) {
+    GraphicsDesc desc;
+    desc.name = desc.fragment = fragment;
+    desc.vertex = "render/fullscreen.vert";
+    desc.depthCompare = VK_COMPARE_OP_ALWAYS;
+    return desc;
+}
+
 inline Blend blendOf(Shading shading) {
     return shading == Shading::counting ? Blend::additive : Blend::none;
 }

@@ -39,10 +39,7 @@ Status Targets::makeOwn(Device& device) {
     if (own) return Done{};
     ImageDesc desc{.name = "picture", .format = kOwnFormat, .width = width, .height = height};
     desc.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    Result<Image> made = Image::create(device, desc);
-    if (!made) return made.failure();
-    own = std::move(*made);
-    return Done{};
+    return assign(own, Image::create(device, desc));
 }
 
 }  // namespace espalier

@@ -15,10 +15,7 @@ Status GpuRoofs::ensure(Buffer& buffer, const char* name, uint64_t bytes, Buffer
     // What may be bound as a uniform buffer stays as small as that.
     static_assert(kUniformMapWords * 4 == kUniformBytes);
     const uint64_t spare = bytes > kUniformMapWords * 4 ? bytes / 8 : 0;
-    Result<Buffer> made = Buffer::create(device_, name, bytes + spare, use);
-    if (!made) return made.failure();
-    buffer = std::move(*made);
-    return Done{};
+    return assign(buffer, Buffer::create(device_, name, bytes + spare, use));
 }
 
 Status GpuRoofs::ensure(Table& table, const char* name, uint64_t bytes) {

@@ -160,10 +160,7 @@ Result<std::vector<Crossing>> GpuSurface::readCrossings(Device& device, size_t c
 Status GpuSurface::readBack(Device& device, SurfaceData& out) const {
     auto read = [&](auto& values, auto buffer, size_t count) -> Status {
         using T = typename std::decay_t<decltype(values)>::value_type;
-        Result<std::vector<T>> got = readArray<T>(device, data_, buffer, count);
-        if (!got) return got.failure();
-        values = std::move(*got);
-        return Done{};
+        return assign(values, readArray<T>(device, data_, buffer, count));
     };
     out.levels.resize(ref_.levelCount);
     for (size_t i = 0; i < out.levels.size(); ++i) {
@@ -185,9 +182,7 @@ Status GpuSurface::addCrossings(Device& device, const SurfaceData& base, std::sp
     SurfaceRef listed = ref_;
     Buffer lists;
     if (!added.empty()) {
-        Result<Buffer> made = makeLists(device, base, *patches, added, listed);
-        if (!made) return made.failure();
-        lists = std::move(*made);
+        if (Status made = assign(lists, makeLists(device, base, *patches, added, listed)); !made) return made.failure();
     }
     Result<Commands> commands = Commands::begin(device, "contacts");
     if (!commands) return commands.failure();

@@ -77,7 +77,7 @@ TEST_CASE("a second click on a project opens it, and one on a folder leads into 
     std::filesystem::create_directories(folder.path / "list/garden");
     std::filesystem::create_directories(folder.path / "list/garden/inner");
     std::filesystem::create_directories(folder.path / "list/zoo");
-    folder.write("list/garden/project.json", "{}");
+    folder.write("list/garden/project.json", readAll(content("town.json")));
     Asked asked(folder);
     sample::askToOpen(folder.file("list/"), "");
     asked.settle();
@@ -95,6 +95,20 @@ TEST_CASE("a second click on a project opens it, and one on a folder leads into 
     asked.settle();
     CHECK(std::string(sample::dialogues().file.data()) == folder.file("list/zoo/"));
     CHECK(asked.session.openNext.empty());
+}
+
+TEST_CASE("what is no scene is told of where it is named, before unsaved work is asked about") {
+    const Folder folder;
+    std::filesystem::create_directories(folder.path / "list/garden");
+    folder.write("list/garden/project.json", "{}");
+    Asked asked(folder);
+    sample::askToOpen(folder.file("list/"), "");
+    asked.settle();
+    asked.twice(asked.row(1));
+    asked.settle();
+    CHECK(asked.session.openNext.empty());
+    CHECK_MESSAGE(contains(sample::dialogues().why, "project.json:1:"), sample::dialogues().why);
+    CHECK(!sample::dialogues().next);
 }
 
 TEST_CASE("a project is saved among other files only when that is said twice, and into an empty folder at once") {

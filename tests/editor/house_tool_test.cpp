@@ -116,21 +116,29 @@ TEST_CASE("a drag of a corner moves it alone, and the roof follows before the bu
     CHECK(builder.roofs().hash == last);
 }
 
-TEST_CASE("Esc in a drag gives the house back as it stood, and what the button still does changes nothing") {
+TEST_CASE(
+    "Esc, Ctrl+Z and the right button in a drag give the house back as it stood, and what the button still does "
+    "changes nothing") {
     const Folder folder;
     Chosen builder(folder);
     const auto& [index, before, planned] = builder.gambrel;
     const glm::vec2 from = builder.corner(index, 2), to = from + glm::vec2(20, -10);
-    builder.press(from);
-    builder.moveTo(to, 4);
-    CHECK(builder.roofs().hash != planned);
-    builder.key(GLFW_KEY_ESCAPE);
-    CHECK(builder.house(index) == before);
-    builder.moveTo(to + glm::vec2(20, 0), 4);
-    builder.release(builder.mouse);
-    CHECK(builder.house(index) == before);
-    CHECK(builder.roofs().hash == planned);
-    CHECK(builder.steps() == 0);
+    const auto cancelled = [&](const char* how, auto&& cancel) {
+        CAPTURE(how);
+        builder.press(from);
+        builder.moveTo(to, 4);
+        CHECK(builder.roofs().hash != planned);
+        cancel();
+        CHECK(builder.house(index) == before);
+        builder.moveTo(to + glm::vec2(20, 0), 4);
+        builder.release(builder.mouse);
+        CHECK(builder.house(index) == before);
+        CHECK(builder.roofs().hash == planned);
+        CHECK(builder.steps() == 0);
+    };
+    cancelled("Esc", [&] { builder.key(GLFW_KEY_ESCAPE); });
+    cancelled("Ctrl+Z", [&] { builder.undo(); });
+    cancelled("the right button", [&] { builder.click(builder.mouse, 0, GLFW_MOUSE_BUTTON_RIGHT); });
     CHECK(builder.work.tool == Tool::houses);
     CHECK(builder.work.house == index);
     // A click on a corner, taken back before it moved, leaves the step before it alone.

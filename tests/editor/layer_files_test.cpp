@@ -99,7 +99,7 @@ TEST_CASE("a picture of another size or kind is taken in, and the user is told w
     const Folder folder;
     Editing editing(smallScene(folder));
     std::string note, error;
-    // Red is what counts, and what is no number, or none of 0 to 1, is limited.
+    // Red is what counts, and what is none of 0 to 1 is limited.
     std::vector<uint8_t> rgba(64 * 32 * 4);
     for (size_t i = 0; i < rgba.size(); i += 4) rgba[i] = 204, rgba[i + 1] = 20;
     REQUIRE(espalier::scene::writePng(folder.file("colour.png"), rgba.data(), 64, 32, error));
@@ -110,7 +110,7 @@ TEST_CASE("a picture of another size or kind is taken in, and the user is told w
     CHECK(std::ranges::all_of(red, [](float value) { return value == 0 || std::abs(value - .8f) < 1e-6f; }));
     CHECK(std::ranges::count(red, 0.f) < int64_t(red.size() / 2));
 
-    GreyPicture odd{2, 2, {std::numeric_limits<float>::quiet_NaN(), -3, 7, std::numeric_limits<float>::infinity()}};
+    const GreyPicture odd{2, 2, {0, -3, 7, 1e30f}};
     REQUIRE_MESSAGE(espalier::scene::writeGrey(folder.file("odd.exr"), odd, error), error);
     REQUIRE_MESSAGE(import(editing, folder.file("odd.exr"), note), editing.error);
     for (const float value : layerOf(editing)) REQUIRE((value >= 0 && value <= 1));
@@ -137,6 +137,11 @@ TEST_CASE("what isn't a whole picture is refused with its name and changes nothi
     refused(folder.path.string(), "is a folder");
     refused(folder.write("text.png", "no picture"), "isn't a picture");
     refused(folder.write("text.exr", "no picture"), "isn't a picture");
+    using Limits = std::numeric_limits<float>;
+    for (const float none : {Limits::quiet_NaN(), Limits::infinity(), -Limits::infinity()}) {
+        REQUIRE(espalier::scene::writeGrey(folder.file("odd.exr"), {2, 1, {1, none}}, editing.error));
+        refused(folder.file("odd.exr"), "no finite number");
+    }
     for (const char* name : {"whole.png", "whole.exr"}) {
         const std::string bytes = readAll(folder.file(name));
         refused(folder.write((std::string("half-") + name).c_str(), bytes.substr(0, bytes.size() / 2)), "");

@@ -173,7 +173,9 @@ TEST_CASE("Shift+D makes copies that follow the mouse, as one step, and Esc take
     CHECK(gardener.seeds() == after);
 }
 
-TEST_CASE("G moves what is chosen without a button, until a click keeps it, or Esc or the right button give it back") {
+TEST_CASE(
+    "G moves what is chosen without a button, until a click keeps it, or Esc, Ctrl+Z or the right button give it "
+    "back") {
     const Folder folder;
     Gardener gardener(folder);
     const uint32_t a = gardener.plant(gardener.onWall(-1.2f, .8f));
@@ -182,14 +184,17 @@ TEST_CASE("G moves what is chosen without a button, until a click keeps it, or E
     const glm::vec2 from = gardener.onWall(-1, 1), to = gardener.onWall(-.7f, 1.2f), stood = gardener.marker(a);
     // By as much as the mouse, wherever that was.
     const auto off = [&] { return glm::distance(gardener.marker(a) - stood, to - from); };
-    for (const bool escape : {true, false}) {
+    for (const int how : {0, 1, 2}) {
+        CAPTURE(how);
         gardener.move(from);
         gardener.key(GLFW_KEY_G);
         gardener.move(from + glm::vec2(1, 0));
         CHECK(glm::distance(gardener.marker(a), stood) < 2);
         gardener.moveTo(to, 5);
         CHECK(off() < 1);
-        escape ? gardener.key(GLFW_KEY_ESCAPE) : gardener.click(to, 0, GLFW_MOUSE_BUTTON_RIGHT);
+        if (how == 0) gardener.key(GLFW_KEY_ESCAPE);
+        if (how == 1) gardener.click(to, 0, GLFW_MOUSE_BUTTON_RIGHT);
+        if (how == 2) gardener.undo();
         gardener.moveTo(from, 5);
         CHECK(gardener.seeds() == before);
         CHECK(gardener.steps() == steps);

@@ -100,6 +100,45 @@ TEST_CASE("who is let go of in the air comes down on the ground") {
     CHECK(world.go({0, 0}, 4).y == doctest::Approx(kEyes).epsilon(.01));
 }
 
+TEST_CASE("who looked from the height of a knee, or from below, stands on the ground before the first step") {
+    for (const float height : {.2f, 1.f, kEyes}) {
+        CAPTURE(height);
+        World world({});
+        const sample::Meets rays = [&](glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
+            return world.meets(from, along, reach, hit);
+        };
+        EspCamera camera = world.walker.camera();
+        camera.eye[1] = camera.target[1] = height;
+        world.walker.set(camera, 10);
+        world.walker.stand(rays);
+        CHECK(world.walker.eye().y == doctest::Approx(std::max(height, kEyes)).epsilon(.001));
+        CHECK(world.go({0, 1}, 1).y == doctest::Approx(kEyes).epsilon(.01));
+    }
+}
+
+TEST_CASE("who is below all ground stands upon it") {
+    World world({});
+    EspCamera camera = world.walker.camera();
+    camera.eye[1] = camera.target[1] = -3;
+    world.walker.set(camera, 10);
+    world.walker.stand([&](glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
+        return world.meets(from, along, reach, hit);
+    });
+    CHECK(world.walker.eye().y == doctest::Approx(-1 + kEyes));  // the floor's underside, which the ray meets
+}
+
+TEST_CASE("who flew high falls, and isn't put down") {
+    World world({});
+    EspCamera camera = world.walker.camera();
+    camera.eye[1] = camera.target[1] = 8;
+    world.walker.set(camera, 10);
+    const sample::Meets rays = [&](glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
+        return world.meets(from, along, reach, hit);
+    };
+    world.walker.stand(rays);
+    CHECK(world.walker.eye().y == 8);
+}
+
 TEST_CASE("a jump on the spot goes as high at any frame rate, and comes down again") {
     for (const float frame : {1 / 60.f, kFrame}) {
         CAPTURE(frame);

@@ -324,6 +324,13 @@ static void carries(void) {
     for (size_t i = 0; i < count; ++i) kept += fabsf(out[i] - texels[i]) < 1.5f / (float)side;
     CHECK(kept > count / 20 * 9); /* the rest is no ground */
     CHECK(espCarryLayer(carry, texels, 0, side, .5f, out, NULL) == ESP_INVALID_ARGUMENT);
+    CHECK(espCarryLayer(carry, texels, side, side, NAN, out, NULL) == ESP_INVALID_ARGUMENT);
+    /* Values are what layers hold, whatever comes in. */
+    for (size_t i = 0; i < count; ++i) texels[i] = i % 3 == 0 ? NAN : i % 3 == 1 ? 7 : -INFINITY;
+    CHECK(espCarryLayer(carry, texels, side, side, 3, out, NULL) == ESP_OK);
+    size_t within = 0;
+    for (size_t i = 0; i < count; ++i) within += out[i] >= 0 && out[i] <= 1;
+    CHECK(within == count);
     espDestroyCarry(carry);
     free(out);
     free(texels);
@@ -342,6 +349,9 @@ int main(int argc, char** argv) {
     CHECK(espCarrySide(NULL) == 0);
     CHECK(espCarryLayer(NULL, NULL, 1, 1, 0, NULL, NULL) == ESP_INVALID_ARGUMENT);
     espDestroyCarry(NULL);
+    float rgb[3], most;
+    CHECK(espViewColour(ESP_VIEW_DEPTH, NAN, rgb, &most) == ESP_INVALID_ARGUMENT);
+    CHECK(espViewColour(ESP_VIEW_DEPTH, 3, rgb, &most) == ESP_OK && rgb[0] >= 0 && rgb[0] <= 1);
     carries();
 
     EspContext* own = create(NULL, NULL);

@@ -1,6 +1,7 @@
 // Tiles of faces that eight planes can't bound, drawn and written out: judged by the structure's faces, which know
 // neither parts nor planes. Written out, every point of a roof lies under exactly one triangle, at its face's height;
 // drawn from straight above, the roof fills its footprint's pixels and no others.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -69,7 +70,12 @@ RoofTriangles writtenOut(const Sheeted& town, CpuRoofs& grown) {
     env.meshes.v = const_cast<RoofMesh*>(town.bounds.data());
     env.layers.v = layers;
     RoofTriangles out;
-    for (const RoofGrid& grid : grown.records.grids) appendGrid(env, grid, town.meshes, out);
+    for (const RoofGrid& grid : grown.records.grids) CHECK(appendGrid(env, grid, town.meshes, out));
+    RoofTriangles few;  // one that is given no room stops at once
+    const auto& grids = grown.records.grids;
+    CHECK_FALSE(
+        std::ranges::all_of(grids, [&](const RoofGrid& g) { return appendGrid(env, g, town.meshes, few, 999); }));
+    CHECK(few.bytes() < out.bytes());
     return out;
 }
 

@@ -149,6 +149,28 @@ TEST_CASE("files that are missing, or aren't what they should be") {
     refuses(capture + folder.write("half.glb", half) + out, folder, {"half.glb"});
 }
 
+TEST_CASE("a pipe in the place of a file is refused, with its name, and nobody waits for its other end") {
+    const Folder folder;
+    const std::string pipe = folder.file("pipe"), out = " -o " + folder.file("frames");
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    for (const char* name : {"pipe.json", "pipe.png", "pipe.glb", "pipe.jsonl", "pipe.grammar"})
+        std::filesystem::create_symlink("pipe", folder.path / name);
+    const std::string capture = "timeout 20 " + program("espalier-capture") + " ",
+                      surface = content("ruin.surface.glb");
+    for (const std::string& options :
+         {folder.file("pipe.json"), folder.file("pipe.glb"), surface + " --grammar " + folder.file("pipe.grammar"),
+          surface + " --layer mask=" + folder.file("pipe.png"), "--replay " + folder.file("pipe.jsonl"),
+          folder.write("scene.json", sceneOf("pipe.glb", "pipe.grammar"))})
+        refuses(capture + options + out, folder, {"pipe"});
+    const std::string include =
+        folder.write("includes.grammar", "include \"pipe.grammar\"\nIvy -> Marching(1, 0, -) Ivy");
+    refuses(capture + surface + " --grammar " + include + out, folder, {"is a pipe"});
+    refuses("timeout 20 " + program("espalier-compare") + " " + folder.file("pipe.png") + " " + content("mask.png"),
+            folder, {"pipe.png"});
+    refuses("timeout 20 " + program("espalier-bake") + " " + folder.file("pipe.json") + " -o " + folder.file("x.glb"),
+            folder, {"pipe.json"});
+}
+
 TEST_CASE("scenes with mistakes tell the place of each") {
     const Folder folder;
     const std::string out = " -o " + folder.file("frames"), capture = program("espalier-capture") + " ";
@@ -172,6 +194,10 @@ TEST_CASE("scenes with mistakes tell the place of each") {
         folder,
         {"i.json:1:", "'grammar' must be a place", "i.json:2:", "'edges' must be a list", "'corners' must be a list",
          "two numbers", "'surface' must be a place", "i.json:4:", "'params' must be an object"});
+    refuses(capture + folder.write("nul.json", sceneOf(content("ruin.surface.glb") + "\\u0000x", "x")) + out, folder,
+            {"nul.json:2:", "NUL"});
+    refuses(capture + folder.write("sun.json", R"({"sun": {"direction": [0, 0, 0]}})") + out, folder,
+            {"sun.json:1:", "'direction'"});
     std::string keys = "{\"k\": 1";
     for (int i = 0; i < 150'000; ++i) keys += ", \"k" + std::to_string(i) + "\": 1";
     // Seconds of the processor's, which a busy machine has no part in.
@@ -192,10 +218,13 @@ TEST_CASE("grammars, layers and options with mistakes") {
     refuses(capture + "--layer bark=" + content("mask.png"), folder, {"mask.png", "'bark'"});
     refuses(capture + "--layer mask", folder, {"NAME=FILE"});
     refuses(capture + "--size 0x10", folder, {"--size"});
-    refuses(capture + "--size 10", folder, {"--size"});
+    for (const char* size : {"10", "4294967360x36", "'64x 36'", "+64x+36", "64x36x", "x36"})
+        refuses(capture + "--size " + size, folder, {"--size"});
+    refuses(capture + "--layer mask=", folder, {"NAME=FILE"});
+    refuses(capture + "--layer mask=a.png --layer mask=b.png", folder, {"'mask' comes twice"});
     refuses(capture + "--view nothing", folder, {"--view"});
     for (const char* camera :
-         {"1,2,3", "1,2,3,1,2,4,x", "1,2,3,1,2,4x", "1,2,3,1,2,4,", "1,2,3,1,2,4,50x", ",1,2,3,1,2,4"})
+         {"1,2,3", "1,2,3,1,2,4,x", "1,2,3,1,2,4x", "1,2,3,1,2,4,", "1,2,3,1,2,4,50x", ",1,2,3,1,2,4", "''"})
         refuses(capture + "--camera " + camera, folder, {"--camera"});
     refuses(capture + "--frames 0", folder, {"--frames"});
     // A picture of a size that nobody can mean.
@@ -295,6 +324,7 @@ TEST_CASE("what is written is whole, what a link leads to, and no device is repl
                                 folder.write("b.ppm", other) + " --diff ";
     const std::string diff = folder.write("diff.png", "what was there");
     const size_t files = folder.count();
+    CHECK(run(compare + folder.file("diff.jpg")).code == 2);
     // A file of 32 KiB, 64 blocks, is as full a disk.
     const Ran full = run("trap '' XFSZ; ulimit -f 64; " + compare + diff);
     CHECK(full.code == 2);
@@ -443,4 +473,6 @@ TEST_CASE("numbers that no option takes are refused with its name") {
     }
     CHECK(run(program("espalier-sample") + " --screenshot x.png").code == 2);
     CHECK(run(program("espalier-sample") + " --autosave nan --frames 1").code == 2);
+    CHECK(run(program("espalier-sample") + " --frames -1").code == 2);
+    CHECK(run(program("espalier-bench") + " --filter nothing-is-called-so").code == 2);
 }

@@ -44,13 +44,15 @@ static double ratio(const Row& row) {
 }
 
 void Bench::add(Row row) {
+    told_ = true;
     std::printf("%-28s %-34s %12.4g %-9s %-38s %12.4g  ratio %.3f\n", row.name.c_str(), row.figure.c_str(), row.ours,
                 row.unit.c_str(), row.otherName.c_str(), row.other, ratio(row));
     std::fflush(stdout);
     rows_.push_back(std::move(row));
 }
 
-void Bench::skip(const std::string& name, const std::string& why) const {
+void Bench::skip(const std::string& name, const std::string& why) {
+    told_ = true;
     std::printf("%-28s skipped: %s\n", name.c_str(), why.c_str());
 }
 

@@ -35,12 +35,14 @@ class Bench {
     bool wants(const std::string& name) const { return name.find(options_.filter) != std::string::npos; }
     // Prints the row at once and keeps it for the CSV.
     void add(Row row);
-    void skip(const std::string& name, const std::string& why) const;
+    void skip(const std::string& name, const std::string& why);
+    bool told() const { return told_; }  // a row, or why there is none
     Status writeCsv(const std::string& path) const;
 
   private:
     BenchOptions options_;
     std::vector<Row> rows_;
+    bool told_ = false;
 };
 
 // Median seconds of `repeats` runs of each, taken in turn (a, b, a, b, …) so that both meet the same noise.

@@ -49,6 +49,10 @@ int main(int argc, char** argv) {
     lodCases(bench);
     roofStructureCases(bench);
     roofGrowthCases(bench);
+    if (!bench.told()) {
+        std::fprintf(stderr, "espalier-bench: no case whose name contains '%s'\n", options.filter.c_str());
+        return 2;
+    }
     if (csv.empty()) return 0;
     Status written = bench.writeCsv(csv);
     if (!written) std::fprintf(stderr, "espalier-bench: %s\n", written.failure().text().c_str());

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <tuple>
 
 #include "tools/command_line.hpp"
 #include "tools/document/document.hpp"
@@ -47,6 +48,7 @@ struct Options {
     long long seed = -1;
     uint32_t maxNodes = espDefaultGrowDef().maxNodes;
     float leafCap = 0;
+    bool aimed = false;  // --camera says something, be it nothing
     bool shaders = false, validation = false, moving = false;
 };
 
@@ -117,12 +119,6 @@ void addOptions(CLI::App& app, Options& options) {
                  "drawn as a window does on a slow device while its camera moves: coarser, and sooner done");
     app.add_flag("--shaders", options.shaders, "growth by shaders on a software device too, not as native code");
     app.add_flag("--validation", options.validation, "with Vulkan's validation layer (also: ESPALIER_VALIDATION=1)");
-}
-
-bool parseSize(const std::string& text, uint32_t& width, uint32_t& height) {
-    char rest = 0;
-    return std::sscanf(text.c_str(), "%ux%u%c", &width, &height, &rest) == 2 && width >= 1 && height >= 1 &&
-           width <= 16384 && height <= 16384;
 }
 
 bool parseCamera(const std::string& text, EspCamera& camera) {
@@ -347,6 +343,9 @@ int run(Options options) {
     else if (stats.stopped > 0)
         warn("a limit of depth or recursion ended " + std::to_string(stats.stopped) + " branches");
     if (roofs.stopped > 0) warn("a limit ended " + std::to_string(roofs.stopped) + " shapes of roofs");
+    if (const size_t planted = document.scene().seeds.size(); stats.seeds < planted)
+        warn(std::to_string(planted - stats.seeds) + " of " + std::to_string(planted) +
+             " seeds don't grow: they stand on bare ground, or another surface lies upon theirs");
     film.warnOfOld(replays ? recorded.frames() : options.frames);
     if (!options.stats.empty() && !writeText(options.stats, statsJson(stats, roofs), error)) return fail(error);
     std::printf("%u frames in %s: %u seeds, %" PRIu64 " nodes, %u branches, %" PRIu64 " leaves, %" PRIu64
@@ -365,32 +364,27 @@ int run(Options options) {
 
 // What options say in words of their own; else what is wrong with it.
 std::string readTexts(Options& options) {
-    if (!options.size.empty() && !parseSize(options.size, options.width, options.height))
+    if (const auto size = espalier::sizeSaid(options.size, 1, 16384); size)
+        std::tie(options.width, options.height) = *size;
+    else if (!options.size.empty())
         return "--size takes WIDTHxHEIGHT, 1 to 16384 each, not '" + options.size + "'";
     EspLook look{};
     if (!parseView(options.view, look)) return "--view: no such view: " + options.view;
     EspCamera camera = espDefaultDrawDef().camera;
-    if (!options.camera.empty() && !parseCamera(options.camera, camera))
+    if (options.aimed && !parseCamera(options.camera, camera))
         return "--camera takes six or seven numbers with commas between them, eye and target apart, an angle as a "
                "scene's, not '" +
                options.camera + "'";
     if (options.hour && !std::isfinite(*options.hour)) return "--hour takes 0 to 24";
     if (!std::isfinite(options.leafCap) || options.leafCap < 0) return "--leaf-cap takes 0 or more";
-    const auto split = [](const std::string& said, LayerFile& out) {
-        const size_t sign = std::min(said.find('='), said.size());
-        out = {said.substr(0, sign), said.substr(std::min(sign + 1, said.size()))};
-        return sign > 0 && sign < said.size();
-    };
-    LayerFile read;
-    for (const std::string& said : options.layersSaid) {
-        if (!split(said, read)) return "--layer takes NAME=FILE, not '" + said + "'";
-        options.request.layers.push_back({read.layer, read.file});
-    }
+    if (const std::string wrong = espalier::takeLayers(options.layersSaid, options.request.layers); !wrong.empty())
+        return wrong;
     for (const std::string& said : options.exportsSaid) {
-        if (!split(said, read)) return "--export takes NAME=FILE, not '" + said + "'";
-        const auto ending = std::filesystem::path(read.file).extension();
-        if (ending != ".png" && ending != ".exr") return "--export writes .png or .exr, not '" + read.file + "'";
-        options.exports.push_back(read);
+        const auto written = espalier::namedFileSaid(said);
+        if (!written) return "--export takes NAME=FILE, not '" + said + "'";
+        const auto ending = std::filesystem::path(written->second).extension();
+        if (ending != ".png" && ending != ".exr") return "--export writes .png or .exr, not '" + written->second + "'";
+        options.exports.push_back({written->first, written->second});
     }
     std::vector<std::string> reads{options.request.file, options.request.grammar, options.replay};
     for (const auto& [layer, file] : options.request.layers) reads.push_back(file);
@@ -408,6 +402,7 @@ int main(int argc, char** argv) {
     Options options;
     addOptions(app, options);
     if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
+    options.aimed = app.count("--camera") > 0;
     if (options.seed >= 0) options.request.seed = uint32_t(options.seed);
     if (options.request.file.empty() && options.replay.empty())
         return refuse("FILE or --replay says what to show; see --help");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <new>
 
 #include "tools/command_line.hpp"
 #include "tools/scene/picture.hpp"
@@ -21,12 +23,13 @@ struct Comparison {
     std::vector<uint8_t> difference;  // as a picture
 };
 
-// tolerance: of 255; 0: only what is the same to the bit is within it. What is no number is like itself only.
-Comparison compare(const FloatPicture& a, const FloatPicture& b, int tolerance) {
+// tolerance: of 255; 0: only what is the same to the bit is within it. What is no number is like itself only. shown:
+// with the picture.
+Comparison compare(const FloatPicture& a, const FloatPicture& b, int tolerance, bool shown) {
     constexpr float kRounding = 1e-3f;  // of parts that were whole numbers
     Comparison out;
     const size_t pixels = size_t(a.width) * a.height;
-    out.difference.assign(pixels * kChannels, 255);
+    if (shown) out.difference.assign(pixels * kChannels, 255);
     size_t within = 0;
     for (size_t i = 0; i < pixels; ++i) {
         bool near = true;
@@ -40,12 +43,46 @@ Comparison compare(const FloatPicture& a, const FloatPicture& b, int tolerance) 
             out.largest = std::max(out.largest, pixel[c]);
         }
         // What only alpha tells is seen as grey.
-        for (size_t c = 0; c < 3; ++c)
+        for (size_t c = 0; shown && c < 3; ++c)
             out.difference[kChannels * i + c] = uint8_t(std::min(255.f, 8 * std::max(pixel[c], pixel[3])));
         within += near;
     }
     out.within = double(within) / double(pixels);
     return out;
+}
+
+int fail(const std::string& message) {
+    std::fprintf(stderr, "espalier-compare: %s\n", message.c_str());
+    return 2;
+}
+
+struct Question {
+    std::string first, second, diff;
+    int tolerance = 5;
+    double share = 0.999;
+};
+
+int answer(const Question& asked) {
+    FloatPicture a, b;
+    std::string error;
+    if (!readFloats(asked.first, a, error) || !readFloats(asked.second, b, error)) return fail(error);
+    if (a.width != b.width || a.height != b.height) {
+        std::fprintf(stderr, "espalier-compare: %s is %u x %u, %s is %u x %u\n", asked.first.c_str(), a.width, a.height,
+                     asked.second.c_str(), b.width, b.height);
+        return 1;
+    }
+    const Comparison found = compare(a, b, asked.tolerance, !asked.diff.empty());
+    const bool alike = found.within >= asked.share;
+    const double pixels = double(a.width) * double(a.height);
+    std::printf(
+        "%s: %.5f of the pixels differ by at most %d, the largest difference is %.4g (wanted: %.5f; %.0f of %.0f "
+        "differ by "
+        "more)\n",
+        alike ? "alike" : "not alike", found.within, asked.tolerance, double(found.largest), asked.share,
+        std::round((1 - found.within) * pixels), pixels);
+    if (!asked.diff.empty() && !writePng(asked.diff, found.difference.data(), a.width, a.height, error))
+        return fail(error);
+    return alike ? 0 : 1;
 }
 
 }  // namespace
@@ -56,9 +93,7 @@ int main(int argc, char** argv) {
         "can't tell.",
         "espalier-compare"};
     app.set_version_flag("--version", ESPALIER_VERSION);
-    std::string first, second, diff;
-    int tolerance = 5;
-    double share = 0.999;
+    Question asked;
     const auto isShare = [](const std::string& text) {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
@@ -66,44 +101,24 @@ int main(int argc, char** argv) {
                    ? ""
                    : "'" + text + "' isn't a share from 0 to 1";
     };
-    app.add_option("A", first, "a picture")->required();
-    app.add_option("B", second, "the picture to compare it with")->required();
-    app.add_option("--tolerance", tolerance, "how far a channel may differ, of 255; 0: not by a bit, in EXR too")
+    app.add_option("A", asked.first, "a picture")->required();
+    app.add_option("B", asked.second, "the picture to compare it with")->required();
+    app.add_option("--tolerance", asked.tolerance, "how far a channel may differ, of 255; 0: not by a bit, in EXR too")
         ->capture_default_str()
         ->check(CLI::Range(0, 255));
-    app.add_option("--share", share, "the share of pixels that must be within it")
+    app.add_option("--share", asked.share, "the share of pixels that must be within it")
         ->capture_default_str()
         ->check(isShare, "FLOAT in [0 - 1]");
-    app.add_option("--diff", diff, "writes a PNG of the differences, brightest where they are largest");
+    app.add_option("--diff", asked.diff, "writes a PNG of the differences, brightest where they are largest");
     if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
 
-    if (espalier::writtenOver({first, second}, {diff})) {
-        std::fprintf(stderr, "espalier-compare: --diff %s would overwrite a picture to compare\n", diff.c_str());
-        return 2;
+    if (espalier::writtenOver({asked.first, asked.second}, {asked.diff}))
+        return fail("--diff " + asked.diff + " would overwrite a picture to compare");
+    const std::filesystem::path ending = std::filesystem::path(asked.diff).extension();
+    if (!ending.empty() && ending != ".png") return fail("--diff writes .png, not '" + asked.diff + "'");
+    try {
+        return answer(asked);
+    } catch (const std::bad_alloc&) {
+        return fail("there is too little memory to compare " + asked.first + " with " + asked.second);
     }
-    FloatPicture a, b;
-    std::string error;
-    if (!readFloats(first, a, error) || !readFloats(second, b, error)) {
-        std::fprintf(stderr, "espalier-compare: %s\n", error.c_str());
-        return 2;
-    }
-    if (a.width != b.width || a.height != b.height) {
-        std::fprintf(stderr, "espalier-compare: %s is %u x %u, %s is %u x %u\n", first.c_str(), a.width, a.height,
-                     second.c_str(), b.width, b.height);
-        return 1;
-    }
-    const Comparison found = compare(a, b, tolerance);
-    const bool alike = found.within >= share;
-    const double pixels = double(a.width) * double(a.height);
-    std::printf(
-        "%s: %.5f of the pixels differ by at most %d, the largest difference is %.4g (wanted: %.5f; %.0f of %.0f "
-        "differ by "
-        "more)\n",
-        alike ? "alike" : "not alike", found.within, tolerance, double(found.largest), share,
-        std::round((1 - found.within) * pixels), pixels);
-    if (!diff.empty() && !writePng(diff, found.difference.data(), a.width, a.height, error)) {
-        std::fprintf(stderr, "espalier-compare: %s\n", error.c_str());
-        return 2;
-    }
-    return alike ? 0 : 1;
 }

@@ -46,9 +46,12 @@ Result<std::vector<Door>> findDoors(const std::string& town, const std::string& 
     const Terminals terminals = roofTerminals();
     Result<RuleMap> map = compileFile(grammar, terminals.names);
     if (!map) return map.failure();
+    if (!map->roofs()) return Failure(grammar, "makes no roofs");
     Result<Town> read = readFootprints(town);
     if (!read) return read.failure();
-    const RoofTables tables = makeAtoms(roofsOf(read->footprints, read->diagnostics));
+    const RoofStructure structure = roofsOf(read->footprints, read->diagnostics);
+    if (structure.houses.empty()) return Failure(town, "holds no building whose roof could be made");
+    const RoofTables tables = makeAtoms(structure);
     RoofInputs inputs;
     inputs.town = &tables;
     inputs.grammar = &*map;

@@ -90,15 +90,6 @@ bool isUnbakedModel(const std::string& path) {
     return model && text.find(kSurfaceExtension) == std::string::npos;
 }
 
-// A file of quite another kind.
-bool isNoSurface(const std::string& path) {
-    char begin[4];
-    std::ifstream in(path, std::ios::binary);
-    std::error_code ignored;
-    return std::filesystem::is_regular_file(path, ignored) && in &&
-           (!in.read(begin, sizeof begin) || std::string_view(begin, sizeof begin) != "glTF");
-}
-
 // glTF's unit is the metre, but many scans come in another: a statue of a centimetre, or of a kilometre, is shown as
 // one of two metres, so that ivy on it is ivy.
 bool loadAtLivingSize(EspContext* context, LoadedSurface& surface, EspSurfaceInfo& info, std::string& error) {
@@ -125,6 +116,18 @@ void layGround(float level, Scene& scene) {
 
 }  // namespace
 
+bool isNoSurface(const std::string& path) {
+    char begin[4];
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return false;
+    std::ifstream in(path, std::ios::binary);
+    return in && (!in.read(begin, sizeof begin) || std::string_view(begin, sizeof begin) != "glTF");
+}
+
+std::string noneToOpen(const std::string& file) {
+    return file + ": neither a scene (.json), a town (.geojson) nor a baked surface (.glb)";
+}
+
 bool openSurface(EspContext* context, const Request& request, Scene& out, std::string& error) {
     if (isUnbakedModel(request.file)) {
         error = request.file + ": isn't baked yet: espalier-bake " + request.file +
@@ -135,8 +138,7 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
     LoadedSurface& surface = out.surfaces.emplace_back();
     surface.file = request.file;
     if (!loadAtLivingSize(context, surface, info, error)) {
-        if (isNoSurface(request.file))
-            error = request.file + ": neither a scene (.json), a town (.geojson) nor a baked surface (.glb)";
+        if (isNoSurface(request.file)) error = noneToOpen(request.file);
         return false;
     }
     const char* standard = request.layers.empty() ? "ivy_free.grammar" : "ivy_guided.grammar";

@@ -55,6 +55,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     bool number_unsigned(number_unsigned_t value) override { return number(double(value)); }
     bool number_float(number_float_t value, const string_t&) override { return number(value); }
     bool string(string_t& value) override {
+        if (!isWhole(value)) return false;
         Json* json = put(Json::Kind::text);
         if (json) json->text = value;
         return json;
@@ -65,6 +66,7 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
     bool key(string_t& name) override {
+        if (!isWhole(name)) return false;
         if (!keys_.back().insert(name).second) return fail(read_, "'" + name + "' comes twice");
         key_ = name;
         return true;
@@ -81,6 +83,10 @@ class Builder : public nlohmann::json_sax<nlohmann::json> {
   private:
     static constexpr size_t kMaxDepth = 64;
 
+    // Names of files and layers end at a NUL wherever C reads them.
+    bool isWhole(const string_t& text) {
+        return text.find('\0') == string_t::npos || fail(read_, "a text holds a NUL character");
+    }
     bool number(double value) {
         Json* json = put(Json::Kind::number);
         if (json) json->number = value;

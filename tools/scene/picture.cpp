@@ -51,8 +51,15 @@ bool storesIntegers(const OIIO::ImageSpec& spec) {
     return !spec.format.is_floating_point();
 }
 
-void limit(std::vector<float>& texels) {
-    for (float& texel : texels) texel = texel > 0 ? std::min(texel, 1.f) : 0;  // what is no number is 0, too
+// Into what layers hold. False: some are no numbers.
+bool limit(const std::string& path, std::vector<float>& texels, std::string& error) {
+    const auto isNumber = [](float texel) { return std::isfinite(texel); };
+    if (!std::ranges::all_of(texels, isNumber)) {
+        error = path + ": holds what is no finite number";
+        return false;
+    }
+    for (float& texel : texels) texel = std::clamp(texel, 0.f, 1.f);
+    return true;
 }
 
 bool damaged(const std::string& path, const OIIO::ImageInput& input, std::string& error) {
@@ -99,8 +106,7 @@ float srgbOf(float linear) {
 
 bool readGrey(const std::string& path, GreyPicture& out, std::string& error) {
     if (!read(path, 1, OIIO::TypeDesc::FLOAT, out.width, out.height, out.texels, error)) return false;
-    limit(out.texels);
-    return true;
+    return limit(path, out.texels, error);
 }
 
 bool readColours(const std::string& path, std::vector<GreyPicture>& channels, std::string& error) {
@@ -111,7 +117,7 @@ bool readColours(const std::string& path, std::vector<GreyPicture>& channels, st
     const size_t texels = size_t(spec.width) * size_t(spec.height);
     std::vector<float> all(texels * size_t(count));
     if (!input->read_image(0, 0, 0, count, OIIO::TypeDesc::FLOAT, all.data())) return damaged(path, *input, error);
-    limit(all);
+    if (!limit(path, all, error)) return false;
     if (storesIntegers(spec)) std::ranges::transform(all, all.begin(), linearOf);
     channels.assign(3, {uint32_t(spec.width), uint32_t(spec.height), std::vector<float>(texels)});
     for (size_t c = 0; c < 3; ++c)

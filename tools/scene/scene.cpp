@@ -15,6 +15,7 @@
 #include "tools/scene/layers.hpp"
 #include "tools/scene/named.hpp"
 #include "tools/scene/picture.hpp"
+#include "tools/scene/scene_file.hpp"
 #include "tools/scene/scene_parts.hpp"
 #include "tools/scene/text_file.hpp"
 
@@ -87,29 +88,50 @@ void plantMore(uint32_t times, std::vector<Seed>& seeds) {
             }
 }
 
+// In place of a folder, its project.
+bool takeProject(std::string& file, std::string& error) {
+    namespace fs = std::filesystem;
+    std::error_code failed;
+    if (!fs::is_directory(file, failed)) return true;
+    const fs::path project = fs::path(file) / "project.json";
+    if (!fs::exists(project, failed)) {
+        error = file + (failed ? ": can't be read: " + failed.message()
+                               : std::string(": is a folder without a project.json, so no project"));
+        return false;
+    }
+    file = project.string();
+    return true;
+}
+
+bool isDescribed(const std::string& file) {
+    return std::filesystem::path(file).extension() == ".json";
+}
+
 }  // namespace
 
+bool mayOpen(const std::string& asked, std::string& error) {
+    std::string file = absolutePath(asked).string(), text;
+    if (!takeProject(file, error)) return false;
+    if (isNoSurface(file) && !isTown(file) && !isDescribed(file)) {
+        error = noneToOpen(file);
+        return false;
+    }
+    SceneFile read;
+    return !isDescribed(file) || isTown(file) ||
+           (readText(file, text, error) && readSceneText(file, text, read, error));
+}
+
 bool openScene(EspContext* context, const Request& asked, Scene& out, std::string& error) {
-    namespace fs = std::filesystem;
     Request request = asked;
-    std::error_code ignored;
     // What is named from there stays what it is, wherever the program is told to work later.
     request.file = absolutePath(request.file).string();
     if (!request.grammar.empty()) request.grammar = absolutePath(request.grammar).string();
-    if (fs::is_directory(request.file, ignored)) {
-        const fs::path project = fs::path(request.file) / "project.json";
-        if (!fs::exists(project, ignored)) {
-            error = request.file + ": is a folder without a project.json, so no project";
-            return false;
-        }
-        request.file = project.string();
-    }
+    if (!takeProject(request.file, error)) return false;
     out = Scene{};
     out.name = lastPart(asked.file);
     out.ownLook = espDefaultLook();
     out.grow = request.grow;
-    const bool described = fs::path(request.file).extension() == ".json";
-    const auto open = isTown(request.file) ? openTown : described ? openDescription : openSurface;
+    const auto open = isTown(request.file) ? openTown : isDescribed(request.file) ? openDescription : openSurface;
     if (!open(context, request, out, error)) return false;
     plantMore(request.times, out.seeds);
     out.grow.walk = request.walk.value_or(out.grow.walk);
@@ -165,8 +187,15 @@ bool plantOne(EspContext* context, Scene& scene, Seed& seed, std::string& error)
             return false;
         }
     if (seed.frozen && espFreezeAs(context, seed.planted, seed.frozen->data(), seed.frozen->size()) != ESP_OK) {
-        scene.notes.push_back((seed.frozenFile.empty() ? "a frozen plant" : seed.frozenFile) + ": " +
-                              espLastError(context) + "; the plant grows again");
+        const std::string why =
+            (seed.frozenFile.empty() ? "a frozen plant" : seed.frozenFile) + ": " + espLastError(context);
+        if (!scene.project) {
+            error = why;
+            (void)espRemoveSeed(context, seed.planted);
+            seed.planted = {};
+            return false;
+        }
+        scene.notes.push_back(why + "; the plant grows again");
         seed.frozen = nullptr;
         if (!seed.frozenFile.empty()) scene.unreadPlants[seed.key] = seed.frozenFile;
     }

@@ -50,7 +50,8 @@ class Reader : JsonChecks {
             sun && isObject(*sun, "'sun'", {"direction", "colour", "intensity", "hour", "shadows"})) {
             number(*sun, "hour", 0, 24, out_.hour);
             flag(*sun, "shadows", out_.shadows);
-            vector(*sun, "direction", out_.sunDirection);
+            if (vector(*sun, "direction", out_.sunDirection) && *out_.sunDirection == std::array<float, 3>{})
+                fail(*sun->find("direction"), "'direction' must not be 0");
             vector(*sun, "colour", out_.sunColour);
             number(*sun, "intensity", 0, 1e4f, out_.sunIntensity);
         }

@@ -79,9 +79,10 @@ bool refused(const std::string& path, std::string& error) {
     std::error_code code;
     const fs::file_type type = fs::status(path, code).type();
     const bool folder = type == fs::file_type::directory;
-    const bool device = type == fs::file_type::character || type == fs::file_type::block;
-    if (folder || device) error = path + (folder ? ": is a folder" : ": is a device, not a file");
-    return folder || device;
+    if (!folder && !isSpecial(path)) return false;
+    const bool pipe = type == fs::file_type::fifo || type == fs::file_type::socket;
+    error = path + (folder ? ": is a folder" : pipe ? ": is a pipe, not a file" : ": is a device, not a file");
+    return true;
 }
 
 bool readText(const std::string& path, std::string& text, std::string& error) {

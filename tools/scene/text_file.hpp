@@ -18,7 +18,7 @@ std::filesystem::path absolutePath(const std::string& path);
 // What a link leads to, or else the path itself.
 std::filesystem::path behindLinks(const std::filesystem::path& path);
 
-// Folders and devices, which may never end, are refused.
+// Folders, devices and pipes, which may never end, are refused.
 bool readText(const std::string& path, std::string& text, std::string& error);
 
 // Whether it is one of these; `error` says so.

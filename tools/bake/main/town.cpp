@@ -24,7 +24,7 @@ class GlbWriter {
     // False when the file would grow beyond what its format can count.
     bool add(const std::string& name, const RoofTriangles& mesh) {
         if (mesh.indices.empty()) return true;
-        const size_t bytes = mesh.positions.size() * 28 + mesh.indices.size() * 4;
+        const size_t bytes = mesh.bytes();
         if (binary_.size() + bytes > kMostBytes) return false;
         glm::vec3 low(1e30f), high(-1e30f);
         for (glm::vec3 p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
@@ -127,7 +127,8 @@ Status addTiles(const TownArguments& arguments, const RoofStructure& structure, 
         if (arguments.walls)
             appendWalls(env, gridsOf[h], structure, h, mesh);
         else
-            for (uint32_t g : gridsOf[h]) appendGrid(env, roofs.records.grids[g], *meshes, mesh);
+            for (uint32_t g : gridsOf[h])
+                if (!appendGrid(env, roofs.records.grids[g], *meshes, mesh, kMostBytes)) break;  // which add() refuses
         triangles += mesh.indices.size() / 3;
         if (!glb.add(structure.houses[h].id, mesh))
             return Failure(arguments.output,
