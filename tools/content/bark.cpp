@@ -12,10 +12,6 @@
 namespace espalier::content {
 namespace {
 
-uint8_t toByte(float x) {
-    return static_cast<uint8_t>(saturate(x) * 255.0f + 0.5f);
-}
-
 struct Texel {
     float height;  // in units of the tile's side
     glm::vec3 color;

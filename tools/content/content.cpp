@@ -144,11 +144,14 @@ Status writeRoofMeshes(const Options& options) {
 Status writeProps(const Options& options) {
     const PropMeshes meshes = makePropMeshes();
     Glb glb;
-    glb.images = {{"foliage", encodePng(paintFoliage(1024), 4), true}, {"palette", encodePng(paintPalette(), 3), true}};
+    glb.images = {{"foliage", encodePng(paintFoliage(1024), 4), true},
+                  {"palette", encodePng(paintPalette(), 3), true},
+                  {"stones", encodeJpeg(paintFallenStones(), 90), false}};
     glb.materials = {{"foliage", 0, -1, 0.7f, 0.57f, true, true},
                      {"built", 1, -1, 0.92f, 0, false, false},
                      {"grass", -1, -1, 0.8f, 0, true, false},
-                     {"meadow", 0, -1, 0.7f, 0.57f, true, true}};
+                     {"meadow", 0, -1, 0.7f, 0.57f, true, true},
+                     {"fallen", 2, -1, 0.92f, 0, false, false}};
     for (const PropMeshes::Entry& e : meshes.all) glb.meshes.push_back({e.name, &e.mesh, e.material});
     return writeGlb(options.directory + "/props.glb", glb);
 }

@@ -135,7 +135,7 @@ Picture paintFoliage(int size) {
             const glm::vec2 p(float(x) / float(first) * 2, float(y) / float(size));
             const glm::vec3 color =
                 x < first ? barkColor(glm::fract(p), x >= first / 2) : glm::vec3(0.05f, 0.09f, 0.02f);
-            for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(srgbOfLinear(color[k])) * 255 + 0.5f);
+            for (int k = 0; k < 3; ++k) texel[k] = toByte(srgbOfLinear(color[k]));
             texel[3] = x < first ? 255 : 0;
         }
     for (int row = 0; row < 4; ++row)

@@ -70,7 +70,7 @@ glm::vec3 leafColor(const Leaf& leaf, const Species& s, float edge, float across
 }
 
 void putTexel(uint8_t* texel, glm::vec3 color, float edge, int side) {
-    for (int k = 0; k < 3; ++k) texel[k] = uint8_t(saturate(srgbOfLinear(color[k])) * 255 + 0.5f);
+    for (int k = 0; k < 3; ++k) texel[k] = toByte(srgbOfLinear(color[k]));
     texel[3] = uint8_t(saturate(0.5f + edge * float(side) / 10) * 255 + 0.5f);
 }
 

@@ -1,4 +1,4 @@
-// What is built on the site: garden walls, fences, a well, a bench, rubble. In: nothing. Out: meshes whose texture
+// What is built on the site: garden walls, fences, a well, a bench. In: nothing. Out: meshes whose texture
 // coordinates pick colours of the palette.
 
 #include <cmath>
@@ -171,104 +171,23 @@ Mesh bench(int) {
     return b.mesh;
 }
 
-// A stone that fell: a block that rain has rounded, uneven, darker where it lies in the soil, mossy where it looks up.
-struct Worn {
-    vec3 middle, half;  // metres
-    float turn, tilt;   // about the vertical, then about its own x
-};
-void addWorn(Builder& b, const Worn& stone, int steps, uint32_t salt) {
-    constexpr float kBlocky = 9, kUneven = 0.20f, kRough = 0.035f, kApart = 0.02f;
-    constexpr float kMoss = 0.22f, kDarkest = 0.42f;  // in Paint::fallen
-    const float bright = 0.26f + 0.14f * random01(salt, 93);
-    const glm::mat3 pose = glm::mat3(glm::rotate(glm::mat4(1), stone.turn, vec3(0, 1, 0)) *
-                                     glm::rotate(glm::mat4(1), stone.tilt, vec3(1, 0, 0)));
-    const auto at = [&](vec3 way) {
-        const vec3 a = glm::pow(glm::abs(way), vec3(kBlocky));
-        const float uneven = kUneven * fractal(1.6f * way, salt, 3) + kRough * fractal(7.0f * way, salt + 2, 2);
-        return stone.middle + pose * (stone.half * way * ((1 + uneven) / std::pow(a.x + a.y + a.z, 1 / kBlocky)));
-    };
-    const auto corner = [&](vec3 way) {
-        const vec3 u = glm::normalize(glm::cross(way, std::abs(way.y) < 0.7f ? vec3(0, 1, 0) : vec3(1, 0, 0))),
-                   v = glm::cross(way, u), p = at(way);
-        const vec3 n = glm::normalize(
-            glm::cross(at(way + kApart * u) - at(way - kApart * u), at(way + kApart * v) - at(way - kApart * v)));
-        const float sunk = ramp(-0.02f, 0.12f, p.y), stained = 1 + 0.5f * fractal(3.1f * way, salt + 1, 3);
-        const float lit = kDarkest + (1 - kDarkest) * bright * stained * (0.55f + 0.45f * sunk);
-        const float moss = 0.9f * ramp(0.45f, 0.85f, n.y + 0.7f * fractal(2.6f * way, salt + 3, 3) - 0.12f);
-        b.mesh.positions.push_back(p);
-        b.mesh.normals.push_back(n);
-        b.mesh.uvs.push_back(paletteUv(Paint::fallen, glm::mix(lit, kMoss, moss)));
-    };
-    // The faces of a cube, blown up.
-    for (int axis = 0; axis < 3; ++axis)
-        for (float side : {-1.0f, 1.0f}) {
-            const uint32_t first = uint32_t(b.mesh.positions.size()), row = uint32_t(steps) + 1;
-            for (int y = 0; y <= steps; ++y)
-                for (int x = 0; x <= steps; ++x) {
-                    vec3 way;
-                    way[axis] = side;
-                    way[(axis + 1) % 3] = side * (2 * float(x) / float(steps) - 1);
-                    way[(axis + 2) % 3] = 2 * float(y) / float(steps) - 1;
-                    corner(glm::normalize(way));
-                }
-            for (uint32_t y = 0; y < uint32_t(steps); ++y)
-                for (uint32_t x = 0; x < uint32_t(steps); ++x)
-                    for (uint32_t k : {0u, 1u, row + 1, 0u, row + 1, row})
-                        b.mesh.indices.push_back(first + y * row + x + k);
-        }
-}
-
-// A heap of them: some sunk into the ground, one on two others.
-Mesh rubble(int lod) {
-    const Worn stones[] = {{{0, 0.13f, 0}, {0.34f, 0.21f, 0.25f}, 0.3f, 0.05f},
-                           {{0.60f, 0.09f, 0.10f}, {0.27f, 0.18f, 0.23f}, 1.2f, -0.10f},
-                           {{0.10f, 0.07f, -0.50f}, {0.28f, 0.16f, 0.20f}, 2.3f, 0.16f},
-                           {{0.30f, 0.40f, 0.04f}, {0.30f, 0.14f, 0.20f}, 0.2f, 0.06f},
-                           {{-0.60f, 0.04f, 0.30f}, {0.22f, 0.13f, 0.16f}, 0.9f, 0.30f},
-                           {{0.78f, 0.03f, -0.52f}, {0.16f, 0.10f, 0.13f}, 2.8f, -0.24f},
-                           {{-0.26f, 0.02f, 0.68f}, {0.13f, 0.09f, 0.11f}, 1.7f, 0.20f}};
-    Builder b;
-    for (const Worn& stone : stones) addWorn(b, stone, lod == 0 ? 4 : 2, 91 + uint32_t(&stone - stones));
-    return b.mesh;
-}
-
-// One of them, half sunk: a thick one, a flat one.
-Mesh thickStone(int lod) {
-    Builder b;
-    addWorn(b, {{0, 0.03f, 0}, {0.19f, 0.17f, 0.17f}, 0.4f, 0.34f}, lod == 0 ? 8 : 2, 105);
-    return b.mesh;
-}
-Mesh flatStone(int lod) {
-    Builder b;
-    addWorn(b, {{0, 0, 0}, {0.23f, 0.12f, 0.18f}, 1.1f, -0.20f}, lod == 0 ? 8 : 2, 112);
-    return b.mesh;
-}
-
 }  // namespace
 
 Picture paintPalette() {
     constexpr int kRow = 8;
-    constexpr float kMoss = 0.33f, kMossEnds = 0.42f;
-    const vec3 moss[2] = {{0.020f, 0.032f, 0.008f}, {0.085f, 0.105f, 0.026f}};
     const vec3 ends[][2] = {
         {{0.085f, 0.075f, 0.058f}, {0.46f, 0.42f, 0.345f}},  {{0.05f, 0.042f, 0.032f}, {0.30f, 0.27f, 0.22f}},
         {{0.050f, 0.038f, 0.026f}, {0.34f, 0.275f, 0.195f}}, {{0.020f, 0.014f, 0.009f}, {0.115f, 0.080f, 0.050f}},
         {{0.25f, 0.24f, 0.22f}, {0.80f, 0.78f, 0.72f}},      {{0.010f, 0.011f, 0.012f}, {0.12f, 0.12f, 0.125f}},
-        {{0.070f, 0.026f, 0.014f}, {0.34f, 0.135f, 0.075f}}, {{0.150f, 0.105f, 0.040f}, {0.58f, 0.45f, 0.21f}},
-        {{0.085f, 0.075f, 0.058f}, {0.46f, 0.42f, 0.345f}}};
+        {{0.070f, 0.026f, 0.014f}, {0.34f, 0.135f, 0.075f}}, {{0.150f, 0.105f, 0.040f}, {0.58f, 0.45f, 0.21f}}};
     static_assert(std::size(ends) == size_t(Paint::count));
     Picture picture(64, kRow * int(Paint::count));
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < 64; ++x) {
             const auto& row = ends[y / kRow];
             const float bright = float(x) / 63;
-            vec3 color = glm::mix(row[0], row[1], bright);
-            if (Paint(y / kRow) == Paint::fallen) {
-                const float stone = ramp(kMoss, kMossEnds, bright);
-                color = glm::mix(glm::mix(moss[0], moss[1], saturate(bright / kMoss)),
-                                 glm::mix(row[0], row[1], saturate((bright - kMossEnds) / (1 - kMossEnds))), stone);
-            }
-            for (int k = 0; k < 3; ++k) picture.at(x, y)[k] = uint8_t(saturate(srgbOfLinear(color[k])) * 255 + 0.5f);
+            const vec3 color = glm::mix(row[0], row[1], bright);
+            for (int k = 0; k < 3; ++k) picture.at(x, y)[k] = toByte(srgbOfLinear(color[k]));
             picture.at(x, y)[3] = 255;
         }
     return picture;
@@ -279,9 +198,8 @@ void addFurniture(PropMeshes& out) {
         const char* name;
         Mesh (*make)(int lod);
         int lods;
-    } rows[] = {{"wall", wall, 2},          {"pier", pier, 2},        {"fence", fence, 2}, {"rails", rails, 2},
-                {"post", post, 1},          {"well", well, 1},        {"bench", bench, 1}, {"rubble", rubble, 2},
-                {"stone_a", thickStone, 2}, {"stone_b", flatStone, 2}};
+    } rows[] = {{"wall", wall, 2}, {"pier", pier, 2}, {"fence", fence, 2}, {"rails", rails, 2},
+                {"post", post, 1}, {"well", well, 1}, {"bench", bench, 1}};
     for (const auto& row : rows)
         for (int lod = 0; lod < row.lods; ++lod) out.add(row.name, lod, row.make(lod), PropMeshes::kBuilt);
 }
@@ -292,6 +210,7 @@ PropMeshes makePropMeshes() {
     addSmallPlants(out);
     addFurniture(out);
     addYard(out);
+    addFallenStones(out);
     return out;
 }
 

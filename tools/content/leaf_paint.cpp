@@ -78,10 +78,6 @@ float bladeHeight(int variant, glm::vec2 p, const Veins& veins) {
     return pillow - 0.004f * veins.main - 0.0018f * veins.side + 0.0035f * fractal(p * 9.0f, salt, 2);
 }
 
-uint8_t toByte(float x) {
-    return static_cast<uint8_t>(saturate(x) * 255.0f + 0.5f);
-}
-
 }  // namespace
 
 LeafAtlas paintLeaves(int size) {

@@ -3,6 +3,7 @@
 // What the content tool's files reckon with. Pure functions.
 
 #include <algorithm>
+#include <cstdint>
 #include <glm/glm.hpp>
 
 namespace espalier::content {
@@ -11,6 +12,9 @@ constexpr float kPi = 3.14159265f;
 
 inline float saturate(float x) {
     return glm::clamp(x, 0.0f, 1.0f);
+}
+inline uint8_t toByte(float x) {
+    return uint8_t(saturate(x) * 255.0f + 0.5f);
 }
 inline float ramp(float low, float high, float x) {
     return glm::smoothstep(low, high, x);

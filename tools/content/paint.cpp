@@ -50,10 +50,6 @@ Coverage rasterise(const std::vector<Chart>& charts, const Assembly& assembly, i
     return out;
 }
 
-uint8_t toByte(float x) {
-    return static_cast<uint8_t>(saturate(x) * 255.0f + 0.5f);
-}
-
 glm::vec2 uvOf(int x, int y, int side) {
     return (glm::vec2(x, y) + 0.5f) / static_cast<float>(side);
 }

@@ -8,7 +8,7 @@
 namespace espalier::content {
 
 struct PropMeshes {
-    enum Material { kFoliage, kBuilt, kGrass, kMeadow };  // kMeadow: foliage of the meadow's hue
+    enum Material { kFoliage, kBuilt, kGrass, kMeadow, kFallen };  // kMeadow: foliage of the meadow's hue
     struct Entry {
         std::string name;  // MODEL_lodN
         Mesh mesh;
@@ -24,6 +24,8 @@ void addTrees(PropMeshes& out);
 void addSmallPlants(PropMeshes& out);
 void addFurniture(PropMeshes& out);
 void addYard(PropMeshes& out);
+void addFallenStones(PropMeshes& out);
+Picture paintFallenStones();  // a cell for each face of each
 
 // Twigs full of leaves, cut out along a distance ramp, and bark. Cells are a quarter of the picture wide, from u = 1/8;
 // bark fills the strip before them, birch its right half, and repeats along v. Cells of the last column are for the
@@ -35,8 +37,7 @@ constexpr int kCloverCell = kFlowers + kMeadows;
 Picture paintFoliage(int size);
 
 // Built props' colours: u is how bright, v picks the material.
-// Of `fallen`, stone that lies in the grass, the darkest third is moss.
-enum class Paint { stone, mortar, wood, darkWood, white, iron, clay, straw, fallen, count };
+enum class Paint { stone, mortar, wood, darkWood, white, iron, clay, straw, count };
 Picture paintPalette();
 inline glm::vec2 paletteUv(Paint paint, float bright) {
     return {0.05f + 0.9f * glm::clamp(bright, 0.0f, 1.0f), (float(paint) + 0.5f) / float(Paint::count)};
