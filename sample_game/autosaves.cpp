@@ -19,8 +19,6 @@ namespace fs = std::filesystem;
 using namespace espalier::document;
 
 constexpr int kMostPlaces = 99;  // editors of one scene
-constexpr const char* kProject = "project.json";
-constexpr const char* kAutosave = "autosave.json";
 
 // Where folders of what was never saved lie; empty: nowhere.
 fs::path allUnsaved() {
@@ -43,9 +41,9 @@ bool Autosaves::open(const std::string& file) {
     at_ = {};
     at_.file = place.string();
     std::error_code ignored;
-    const bool recovered = place.filename() == kAutosave;
-    if (place.filename() == kProject || recovered) place = place.parent_path();
-    if (fs::exists(place / kProject, ignored))
+    const bool recovered = place.filename() == espalier::scene::kAutosaveFile;
+    if (place.filename() == espalier::scene::kProjectFile || recovered) place = place.parent_path();
+    if (fs::exists(place / espalier::scene::kProjectFile, ignored))
         at_.folder = place.string();
     else if (recovered)
         at_.recoveredFrom = place.string();
@@ -106,7 +104,7 @@ void Autosaves::release() {
 }
 
 std::string Autosaves::own() const {
-    return (fs::path(at_.folder) / kAutosave).string();
+    return (fs::path(at_.folder) / espalier::scene::kAutosaveFile).string();
 }
 
 // By what it was opened from, or is the project of: its name, and a number for where that is.
@@ -145,7 +143,7 @@ void Autosaves::take() {
             at_.unsaved = place.string();
             return unsavedLock_.release();
         }
-        if (!unsavedLock_.take(place.string()) || fs::exists(place / kAutosave, failed)) continue;
+        if (!unsavedLock_.take(place.string()) || fs::exists(place / espalier::scene::kAutosaveFile, failed)) continue;
         at_.unsaved = place.string();
         return;
     }

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <tuple>
 
+#include "tools/scene/scene_file.hpp"
+
 namespace sample {
 
 namespace fs = std::filesystem;
@@ -21,7 +23,7 @@ std::vector<FolderEntry> listFolder(const std::string& typed, const std::vector<
         std::error_code gone;
         if (name.empty() || name[0] == '.') continue;
         if (at->is_directory(gone)) {
-            const bool project = fs::exists(at->path() / "project.json", gone);
+            const bool project = fs::exists(at->path() / espalier::scene::kProjectFile, gone);
             // A project is answered with: the list stays, so that a second click finds it where the first did.
             if (project)
                 found.push_back({name, before + name, FolderEntry::project});

@@ -8,6 +8,7 @@
 #include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/replay.hpp"
+#include "tools/scene/scene_file.hpp"
 
 namespace sample {
 namespace {
@@ -74,7 +75,7 @@ Doubt doubtOfSaving(const Session& session, const std::string& folder) {
                     "Throw away, save"};
         return session.changedByOthers() ? Doubt{place + changed + "."} : Doubt{};
     }
-    if (fs::exists(fs::path(place) / "project.json", ignored)) return {place + " is a project already."};
+    if (fs::exists(fs::path(place) / espalier::scene::kProjectFile, ignored)) return {place + " is a project already."};
     if (fs::directory_iterator(place, ignored) == fs::directory_iterator()) return {};  // empty, or to be made
     return {place + " holds other files.", "Save the project among them?", "Save there"};
 }

@@ -17,8 +17,6 @@ using namespace espalier::document;
 
 constexpr double kLookEvery = .3;   // seconds
 constexpr uint64_t kNever = ~1ull;  // was saved: no document has this state
-constexpr const char* kProject = "project.json";
-constexpr const char* kAutosave = "autosave.json";
 constexpr const char* kNoPlace = "neither XDG_CONFIG_HOME nor HOME is set";
 
 std::vector<std::string> modelFiles(const espalier::scene::Scene& scene) {
@@ -55,7 +53,7 @@ std::string Session::name(const Workspace& work) const {
 }
 
 FileStamp Session::projectNow() const {
-    return folder().empty() ? FileStamp{} : stampOf(fs::path(folder()) / kProject);
+    return folder().empty() ? FileStamp{} : stampOf(fs::path(folder()) / espalier::scene::kProjectFile);
 }
 
 bool Session::changedByOthers() const {
@@ -90,12 +88,12 @@ bool Session::step(Workspace& work, double now) {
 void Session::noticeLoss(Workspace& work) {
     std::error_code ignored;
     const uint64_t state = work.document->state();
-    const bool gone = !fs::exists(fs::path(autosaves_.place()) / kAutosave, ignored);
+    const bool gone = !fs::exists(fs::path(autosaves_.place()) / espalier::scene::kAutosaveFile, ignored);
     if (state == autosavedState_ && state != savedState_ && (gone || keptBeside_ != projectNow())) {
         autosavedState_ = kNever;
         nextAutosave_ = 0;
     }
-    const bool there = folder().empty() || fs::exists(fs::path(folder()) / kProject, ignored);
+    const bool there = folder().empty() || fs::exists(fs::path(folder()) / espalier::scene::kProjectFile, ignored);
     const bool missed = std::exchange(missing_, !there);  // at two looks: others may be writing it anew
     if (there || !missed || savedState_ == kNever) return;
     savedState_ = autosavedState_ = kNever;

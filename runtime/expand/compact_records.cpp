@@ -25,7 +25,7 @@ void renumber(uint32_t& index, const std::vector<uint32_t>& to) {
 }  // namespace
 
 void compactRecords(GrowthRecords& g) {
-    const auto nodes = closeGaps(g.nodes, [](const Node& n) { return n.radius >= 0; });
+    const auto nodes = closeGaps(g.nodes, [](const Node& n) { return !isGap(n); });
     const auto chunks = closeGaps(g.chunks, [](const Chunk& c) { return c.marks != 0; });
     const auto branches = closeGaps(g.branches, [](const BranchRecord& b) { return b.firstChunk != kNoIndex; });
     closeGaps(g.leaves, [](const Leaf& l) { return l.node < kLeafPending; });

@@ -191,8 +191,8 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptShaders(const GrowthInputs& inputs,
         Outcome read = readOutcome(last);
         outcome.status = read.status;
         outcome.waves = std::move(read.waves);
-        bool short1 = outcome.status.items > room_.items || outcome.status.chunks > outcome.status.chunkCapacity;
-        if (outcome.waves[last].count == 0 || last == most || short1) return outcome;
+        bool outOfRoom = outcome.status.items > room_.items || outcome.status.chunks > outcome.status.chunkCapacity;
+        if (outcome.waves[last].count == 0 || last == most || outOfRoom) return outcome;
         if (!goesOn(inputs.watch, outcome.status.nodes)) return stoppedFailure();
         first = last;
         batch = batch * 2;

@@ -328,9 +328,9 @@ Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const S
     }
     Outcome outcome;
     AgainState state{};
-    whole_ = false;  // an exception may leave nodes that are drawn changed in part: then all grows anew
+    whole_ = false;  // what fails may leave nodes that are drawn changed in part: then all grows anew
     Result<Regrown> grown = growAgain(inputs, env, outcome, state);
-    whole_ = true;
+    whole_ = grown || stopped(inputs);  // which is heeded before any is changed
     if (!grown) return grown.failure();
     if (*grown == Regrown::noRoom) {
         room_.nodes = std::max(room_.nodes, stats_.nodes + stats_.nodes / 2);

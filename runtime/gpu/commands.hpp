@@ -124,7 +124,6 @@ class Pass {
 struct ColorTarget {
     VkImageView view = VK_NULL_HANDLE;
     std::optional<std::array<float, 4>> clear;  // none: what is there stays
-    VkImageView resolve = VK_NULL_HANDLE;       // averages the samples into this
 };
 struct DepthTarget {
     VkImageView view = VK_NULL_HANDLE;

@@ -26,11 +26,6 @@ void beginRendering(const DeviceFunctions& vk, VkCommandBuffer commands, const D
         VkRenderingAttachmentInfo& info = colors.emplace_back(
             attachment(target.view, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, target.clear.has_value(), true));
         if (target.clear) std::ranges::copy(*target.clear, info.clearValue.color.float32);
-        if (!target.resolve) continue;
-        info.storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-        info.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
-        info.resolveImageView = target.resolve;
-        info.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     }
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
     info.renderArea.extent = targets.extent;

@@ -51,10 +51,7 @@ EspResult readLinks(EspContext& context, uint32_t id, EspLink* out, uint32_t* co
                       kCrossingContact == ESP_LINK_CONTACT && kCrossingOpen == ESP_LINK_OPEN);
         link.kind = EspLinkKind(crossing.flags & 3u);
         const uint32_t instance = crossing.target >> 16;
-        link.toSurface.id = instance == 0xFFFFu ? id : 0;
-        context.surfaces.forEach([&](uint32_t other, const PlacedSurface& there) {
-            if (there.instance == instance) link.toSurface.id = other;
-        });
+        link.toSurface.id = instance == 0xFFFFu ? id : context.surfaces.idAt(instance);
     }
     return ESP_OK;
 }

@@ -12,7 +12,7 @@
 namespace espalier {
 namespace {
 
-constexpr uint32_t kMaxSide = 16384, kMostCharts = 65535;
+constexpr uint32_t kMostCharts = 65535;
 
 glm::vec3 vec(const float v[3]) {
     return {v[0], v[1], v[2]};
@@ -30,7 +30,7 @@ bool finite(const EspLook& look) {
 EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
     if (!isAmong(def.look.view, ESP_VIEW_SHADED, ESP_VIEW_OVERDRAW))
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: no such view");
-    if (def.width < 1 || def.height < 1 || def.width > kMaxSide || def.height > kMaxSide)
+    if (def.width < 1 || def.height < 1 || def.width > kMaxFrameSide || def.height > kMaxFrameSide)
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a frame is 1 to 16384 pixels wide and high");
     for (const float* v : {def.camera.eye, def.camera.target, def.camera.up})
         if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
@@ -325,18 +325,16 @@ EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes) {
 EspCamera espFrameAll(const EspContext* context) {
     EspCamera camera = espDefaultDrawDef().camera;
     if (!context || (context->surfaces.size() == 0 && !context->town)) return camera;
-    glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
-    std::vector<glm::vec3> points;  // corners of boxes
-    const auto hold = [&](glm::vec3 from, glm::vec3 to) {
-        low = glm::min(low, from), high = glm::max(high, to);
-        for (int i = 0; i < 8; ++i) points.push_back(glm::mix(from, to, glm::vec3(i & 1, i >> 1 & 1, i >> 2 & 1)));
+    const auto eachBox = [&](auto&& take) {
+        for (uint32_t i = 0; i < espHouseCount(context); ++i)
+            if (EspHouseInfo house; espHouseInfo(context, i, &house) == ESP_OK)
+                take(vec(house.boundsMin), vec(house.boundsMax));
+        context->surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
+            take(vec(surface.info.boundsMin), vec(surface.info.boundsMax));
+        });
     };
-    for (uint32_t i = 0; i < espHouseCount(context); ++i)
-        if (EspHouseInfo house; espHouseInfo(context, i, &house) == ESP_OK)
-            hold(vec(house.boundsMin), vec(house.boundsMax));
-    context->surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
-        hold(vec(surface.info.boundsMin), vec(surface.info.boundsMax));
-    });
+    glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
+    eachBox([&](glm::vec3 from, glm::vec3 to) { low = glm::min(low, from), high = glm::max(high, to); });
     const glm::vec3 size = high - low;
     const float radius = std::max(glm::length(size) * .5f, 1e-4f);
     camera.fovY = .6f;
@@ -350,11 +348,13 @@ EspCamera espFrameAll(const EspContext* context) {
     const float tangent = std::tan(camera.fovY * .5f) * .96f;
     const glm::vec3 centre = (low + high) * .5f;
     float distance = radius;
-    for (const glm::vec3& point : points) {
-        const glm::vec3 c = point - centre;
-        const float across = std::max(std::abs(glm::dot(c, up)), std::abs(glm::dot(c, right)) * .75f);
-        distance = std::max(distance, glm::dot(c, towards) + across / tangent);
-    }
+    eachBox([&](glm::vec3 from, glm::vec3 to) {
+        for (int i = 0; i < 8; ++i) {
+            const glm::vec3 c = glm::mix(from, to, glm::vec3(i & 1, i >> 1 & 1, i >> 2 & 1)) - centre;
+            const float across = std::max(std::abs(glm::dot(c, up)), std::abs(glm::dot(c, right)) * .75f);
+            distance = std::max(distance, glm::dot(c, towards) + across / tangent);
+        }
+    });
     const glm::vec3 eye = centre + towards * distance;
     std::memcpy(camera.eye, &eye, sizeof camera.eye);
     std::memcpy(camera.target, &centre, sizeof camera.target);

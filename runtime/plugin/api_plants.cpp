@@ -72,9 +72,7 @@ EspResult branchPath(EspContext& context, uint64_t branch, EspPathSample* sample
         sample.uv[0] = uv.x;
         sample.uv[1] = uv.y;
         sample.chart = node.place & 0xFFFFu;
-        context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
-            if (surface.instance == node.place >> 16) sample.surface.id = id;
-        });
+        sample.surface.id = context.surfaces.idAt(node.place >> 16);
         sample.inserted = (node.flags & kNodeInserted) != 0;
         samples[i] = sample;
     }

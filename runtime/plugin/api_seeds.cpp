@@ -233,10 +233,7 @@ EspResult espSeedAt(const EspContext* context, uint32_t index, EspSeed* out) {
     return guarded(context, [&] {
         if (!out || index >= context->seeds.size())
             return fail(context, ESP_INVALID_ARGUMENT, "espSeedAt: null pointer, or beyond the last seed");
-        uint32_t at = 0;
-        context->seeds.forEach([&](uint32_t id, const PlantedSeed&) {
-            if (at++ == index) out->id = id;
-        });
+        out->id = context->seeds.nth(index);
         return ESP_OK;
     });
 }

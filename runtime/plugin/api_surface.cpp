@@ -176,6 +176,7 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
         seed.givenPosition = moved(seed.givenPosition);
         seed.givenDirection = turned(seed.givenDirection);
     });
+    context.plants.reset();  // which were read where they stood
     context.moved = std::move(reached);
     context.tablesStale = context.contactsStale = true;
     ++context.revision;

@@ -15,6 +15,10 @@ void noteMoved(EspContext& context) {
     context.seeds.forEach([&](uint32_t, const PlantedSeed& seed) {
         if (context.moved[instanceOf(seed.surface)]) context.changes.seeds.push_back(seedKey(seed));
     });
+    // Noted anew at each attempt until one succeeds.
+    std::vector<uint64_t>& noted = context.changes.seeds;
+    std::ranges::sort(noted);
+    noted.erase(std::ranges::unique(noted).begin(), noted.end());
 }
 
 // What has grown stands on these.

@@ -27,12 +27,13 @@ class IdTable {
         } else {
             if (slots_.size() >= kMaxPlaces) return 0;
             place = uint32_t(slots_.size());
-            free_.reserve(slots_.size() + 1);  // so that erase can't run out of memory
+            // So that erase can't run out of memory.
+            if (free_.capacity() <= slots_.size()) free_.reserve(2 * slots_.size() + 1);
             slots_.emplace_back();
         }
         slots_[place].value.emplace(std::move(value));
         ++count_;
-        return (slots_[place].generation << kPlaceBits) | (place + 1);
+        return idAt(place);
     }
 
     T* find(uint32_t id) {
@@ -55,12 +56,24 @@ class IdTable {
 
     uint32_t size() const { return count_; }
 
+    // Of what is at a place; 0: nothing.
+    uint32_t idAt(uint32_t place) const {
+        if (place >= slots_.size() || !slots_[place].value) return 0;
+        return (slots_[place].generation << kPlaceBits) | (place + 1);
+    }
+    // Of the index-th in order of places; index below size().
+    uint32_t nth(uint32_t index) const {
+        uint32_t place = count_ == slots_.size() ? index : 0;  // all are taken
+        for (uint32_t before = place; !slots_[place].value || before < index; ++place)
+            before += slots_[place].value.has_value();
+        return idAt(place);
+    }
+
     // visit(id, value) in order of places.
     template <class F>
     void forEach(F&& visit) {
         for (uint32_t place = 0; place < slots_.size(); ++place)
-            if (slots_[place].value)
-                visit((slots_[place].generation << kPlaceBits) | (place + 1), *slots_[place].value);
+            if (slots_[place].value) visit(idAt(place), *slots_[place].value);
     }
     template <class F>
     void forEach(F&& visit) const {

@@ -262,7 +262,7 @@ void RendererImpl::forget() {
 }
 
 Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
-    require(target.width > 0 && target.height > 0 && target.width <= 16384 && target.height <= 16384,
+    require(target.width > 0 && target.height > 0 && target.width <= kMaxFrameSide && target.height <= kMaxFrameSide,
             "a picture is 1 to 16384 pixels wide and high");
     now_ = {};
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;

@@ -14,6 +14,8 @@
 
 namespace espalier {
 
+inline constexpr uint32_t kMaxFrameSide = 16384;  // pixels
+
 struct Camera {
     glm::vec3 eye{0, 1, 5}, target{0, 1, 0}, up{0, 1, 0};
     float fovY = 0.7f;        // radians
@@ -74,7 +76,7 @@ struct HostScene {
 // are lost but with a host's scene, and it is left in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; format: one of
 // EspDrawDef::colourFormat's.
 struct DrawTarget {
-    uint32_t width = 1280, height = 720;  // 1 to 16384
+    uint32_t width = 1280, height = 720;  // 1 to kMaxFrameSide
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;

@@ -49,7 +49,6 @@ struct Checker {
         return true;
     }
 
-    uint32_t firstOf(const RoofFace& f) const { return f.firstSegment; }
     glm::vec3 startOf(const RoofFace& f, uint32_t i) const {
         if (i > f.firstSegment) return s.segments[i - 1].to;
         return f.detached ? s.segments[f.firstSegment + f.segmentCount - 1].to : f.eave[1];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <clipper.hpp>
 #include <cmath>
+#include <utility>
 
 #include "runtime/roof/footprint.hpp"
 
@@ -14,11 +15,12 @@ using ClipperLib::IntPoint;
 using ClipperLib::Path;
 using ClipperLib::Paths;
 
-constexpr double kNear = 0.005;          // metres: corners nearer than this are one
-constexpr double kStraight = 0.002;      // metres off the line between its neighbours: no corner
-constexpr double kLeastArea = 0.05;      // square metres
-constexpr double kLargest = 100000;      // metres from the house's first corner
-constexpr size_t kMostCrossings = 1000;  // pairs of edges that cross or touch, of what is mended
+constexpr double kNear = 0.005;                    // metres: corners nearer than this are one
+constexpr double kStraight = 0.002;                // metres off the line between its neighbours: no corner
+constexpr double kLeastArea = 0.05;                // square metres
+constexpr double kLargest = 100000;                // metres from the house's first corner
+constexpr size_t kManyGone = 64, kMostGone = 256;  // corners without a turn between two that stay
+constexpr size_t kMostCrossings = 1000;            // pairs of edges that cross or touch, of what is mended
 
 double areaOf(const std::vector<glm::dvec2>& ring) {
     double twice = 0;
@@ -35,39 +37,78 @@ double distanceToSegment(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
     return glm::length(p - a - t * d);
 }
 
+// Only the outermost of many points: none lies farther from an edge than the farthest of these. Their convex hull, by
+// its lower and its upper side.
+void keepOutermost(std::vector<glm::dvec2>& points) {
+    if (points.size() < kManyGone) return;
+    std::ranges::sort(points, [](glm::dvec2 a, glm::dvec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    std::vector<glm::dvec2> hull;
+    for (const bool upper : {false, true}) {
+        const size_t begin = hull.size();
+        for (size_t k = 0; k < points.size(); ++k) {
+            const glm::dvec2 p = upper ? points[points.size() - 1 - k] : points[k];
+            const auto turns = [&] {
+                const glm::dvec2 a = hull.back() - hull[hull.size() - 2], b = p - hull.back();
+                return a.x * b.y - a.y * b.x > 0;
+            };
+            while (hull.size() >= begin + 2 && !turns()) hull.pop_back();
+            hull.push_back(p);
+        }
+        hull.pop_back();  // where the other side begins
+    }
+    if (!hull.empty()) points = std::move(hull);
+}
+
 // Drops corners that repeat the one before, end a spike or don't turn. Corners dropped between two kept ones stay
-// within kStraight of the new edge, so that curved walls don't melt. Returns whether any was dropped.
+// within kStraight of the new edge, so that curved walls don't melt; after kMostGone that bound it, one stays, so that
+// an outline of any number of corners is done in time. Returns whether any was dropped.
 bool simplifyRing(std::vector<glm::dvec2>& ring) {
-    bool changed = false, again = true;
-    std::vector<std::vector<glm::dvec2>> gone(ring.size());  // after each corner
-    while (again && ring.size() >= 3) {
+    struct Corner {
+        size_t before, after;
+        std::vector<glm::dvec2> gone;  // between it and the one after
+    };
+    const size_t count = ring.size();
+    std::vector<Corner> corners(count);
+    for (size_t i = 0; i < count; ++i) corners[i] = {(i + count - 1) % count, (i + 1) % count, {}};
+    size_t first = 0, left = count;
+    for (bool again = true; again && left >= 3;) {
         again = false;
-        for (size_t i = 0; i < ring.size() && ring.size() >= 3;) {
-            size_t before = (i + ring.size() - 1) % ring.size(), after = (i + 1) % ring.size();
-            glm::dvec2 a = ring[before], p = ring[i], b = ring[after];
-            bool near = glm::length(p - a) < kNear;
+        size_t i = first;
+        for (size_t visits = left; visits > 0 && left >= 3; --visits) {
+            const auto& [before, after, gone] = corners[i];
+            std::vector<glm::dvec2>& goneBefore = corners[before].gone;
+            const glm::dvec2 a = ring[before], p = ring[i], b = ring[after], in = p - a, out = b - p;
+            const bool near = glm::length(in) < kNear;
             bool drop = near || distanceToSegment(p, a, b) < kStraight;
             // A spike: there and back along one line.
-            glm::dvec2 in = p - a, out = b - p;
-            double sine = in.x * out.y - in.y * out.x;
-            bool spike =
+            const double sine = in.x * out.y - in.y * out.x;
+            const bool spike =
                 glm::dot(in, out) < 0 && std::abs(sine) < kStraight * std::max(glm::length(in), glm::length(out));
-            if (drop && !near && !spike)
-                for (const auto* list : {&gone[before], &gone[i]})
-                    for (glm::dvec2 q : *list) drop = drop && distanceToSegment(q, a, b) < kStraight;
-            if (!drop && !spike) {
-                i++;
-                continue;
+            if (drop && !near && !spike) {
+                drop = goneBefore.size() + gone.size() < kMostGone;
+                for (const std::vector<glm::dvec2>* list : {&std::as_const(goneBefore), &gone})
+                    for (size_t k = 0; k < list->size() && drop; ++k)
+                        drop = distanceToSegment((*list)[k], a, b) < kStraight;
             }
-            if (!spike && !near) gone[before].push_back(p);
-            gone[before].insert(gone[before].end(), gone[i].begin(), gone[i].end());
-            if (spike) gone[before].clear();
-            ring.erase(ring.begin() + std::ptrdiff_t(i));
-            gone.erase(gone.begin() + std::ptrdiff_t(i));
-            changed = again = true;
+            const size_t next = after;
+            if (drop || spike) {
+                if (!spike && !near) goneBefore.push_back(p);
+                goneBefore.insert(goneBefore.end(), gone.begin(), gone.end());
+                if (spike) goneBefore.clear();
+                keepOutermost(goneBefore);
+                corners[before].after = next;
+                corners[next].before = before;
+                if (i == first) first = next;
+                --left;
+                again = true;
+            }
+            i = next;
         }
     }
-    if (ring.size() < 3) ring.clear();
+    std::vector<glm::dvec2> kept;
+    for (size_t i = first; left >= 3 && kept.size() < left; i = corners[i].after) kept.push_back(ring[i]);
+    const bool changed = kept.size() < count;
+    ring = std::move(kept);
     return changed;
 }
 

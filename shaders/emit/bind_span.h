@@ -65,7 +65,7 @@ void bindSpan(uint i) {
         }
         push.spans.v[i].reach = -1.0f;
         Node node = readNode(env, i);
-        bool there = node.flags != 0u || node.radius >= 0.0f;
+        bool there = !isGap(node);
         ChunkBrief chunk = readBrief(env, there ? node.chunk : 0u);
         push.spans.v[i].bits = kNoBark | (there ? stretchBits(node, chunk) : 0u);
         uint before = ((node.flags >> 8u) & 31u) > 0u ? i - 1u : chunk.previousNode;

@@ -7,7 +7,7 @@
 #include "shaders/render/frame.glsl"
 
 // Across a span at a place on it: the curve, what lies across, how thick it is.
-struct BarkRing {
+struct DrawnRing {
     vec3 center, side, up, tangent;   // the tangent isn't of unit length
     float radius;
 };
@@ -20,10 +20,11 @@ struct BarkVertex {
 };
 
 // u: along the span, 0 to 1. ribbon: across the view, its normal towards the eye.
-BarkRing barkRing(SpanInstance o, float u, bool ribbon) {
+DrawnRing drawnRing(SpanInstance o, float u, bool ribbon) {
     float w = 1.0 - u;
-    vec3 center = o.p0 * (w * w * w) + o.b1 * (3.0 * w * w * u) + o.b2 * (3.0 * w * u * u) + o.p3 * (u * u * u);
-    vec3 tangent = (o.b1 - o.p0) * (w * w) + (o.b2 - o.b1) * (2.0 * w * u) + (o.p3 - o.b2) * (u * u);
+    Span span = Span(o.p0, o.b1, o.b2, o.p3);
+    vec3 center = spanPoint(span, u);
+    vec3 tangent = spanVelocity(span, u);
     vec3 up = octahedralToUnit(o.normal0) * w + octahedralToUnit(o.normal1) * u;
     vec3 side = cross(up, tangent);
     side *= inversesqrt(max(dot(side, side), 1e-30));
@@ -39,7 +40,7 @@ BarkRing barkRing(SpanInstance o, float u, bool ribbon) {
     float radius = o.radius0 * w + o.radius1 * u;
     center += up * (kBarkRise * radius);
     if ((o.bits & 256u) != 0u) radius = barkRadius(o.radius0, o.radius1, o.metres, true, u);
-    return BarkRing(center, side, up, tangent, radius);
+    return DrawnRing(center, side, up, tangent, radius);
 }
 
 BarkVertex barkVertex(TerminalPush push, uint vertex, uint drawn) {
@@ -50,7 +51,7 @@ BarkVertex barkVertex(TerminalPush push, uint vertex, uint drawn) {
     SpanInstance o = drawnSpan(state.starts[push.bucket] + instance);
     TerminalVertex mesh = drawnVertex(push.firstVertex + local);
     float u = clamp(mesh.position.z, 0.0, 1.0);
-    BarkRing ring = barkRing(o, u, push.vertexCount == kRibbonVertices);
+    DrawnRing ring = drawnRing(o, u, push.vertexCount == kRibbonVertices);
     v.position = ring.center + (ring.side * mesh.position.x + ring.up * mesh.position.y) * ring.radius;
     vec3 n = octahedralToUnit(mesh.normal);
     v.normal = ring.side * n.x + ring.up * n.y + normalize(ring.tangent + vec3(1e-12)) * n.z;

@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Data { LightPush data; };
 
 // at: of the instance; end: 0 or 1; along: texture coordinate there.
 void lightEnd(uint at, SpanInstance span, uint end, float along) {
-    BarkRing ring = barkRing(span, float(end), true);
+    DrawnRing ring = drawnRing(span, float(end), true);
     SmallBark light = smallBark(data.draw, ring.center, ring.up, ring.radius);
     writeLight(data.lit, at, end, vec4(light.own, light.other.x), vec4(light.other.yz, light.share, barkFade(span)));
     vec3 aside = ring.side * ring.radius;

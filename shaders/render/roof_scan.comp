@@ -2,19 +2,17 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // Counts -> starts and indirect draws. One invocation: there are 64 buckets.
+#include "shaders/emit/batches.h"
 #include "shaders/render/roof_draw_records.h"
 
 layout(local_size_x = 1) in;
 layout(push_constant, scalar) uniform Data { RoofCullPush push; };
 
-// Full batches in one command, the rest in another, so that small meshes aren't drawn one by one.
 void writeDraws(RoofDrawEnv env, uint at, uint b, uint count) {
-    BucketRecord bucket = env.table.v[0].buckets[b];
-    uint batch = max(bucket.batch, 1u);
-    uint rest = count % batch;
-    env.state.v[0].draws[at] = DrawCommand(bucket.indexCount * batch, count / batch, bucket.firstIndex, 0, 0u);
-    env.state.v[0].draws[at + 1u] = DrawCommand(bucket.indexCount * rest, rest > 0u ? 1u : 0u, bucket.firstIndex,
-                                                int((count - rest) * bucket.vertexCount), 0u);
+    DrawCommand whole, last;
+    drawBatches(env.table.v[0].buckets[b], count, whole, last);
+    env.state.v[0].draws[at] = whole;
+    env.state.v[0].draws[at + 1u] = last;
 }
 
 void main() {

@@ -67,8 +67,7 @@ CONST_UINT(kNodeInserted, 1u << 13u);
 CONST_UINT(kNodeTip, 1u << 14u);
 CONST_UINT(kNodeBark, 1u << 17u);
 
-// A recorded sample of a walk, 44 bytes. Object space of its instance. One whose flags are 0 and radius is negative is
-// no node any more: a regrowth has taken it out.
+// A recorded sample of a walk, 44 bytes. Object space of its instance. See isGap().
 struct Node {
     vec3 position;
     uint normal;      // octahedral 2×16 snorm, outward
@@ -81,6 +80,8 @@ struct Node {
     uint flags;
 };
 STATIC_SIZE(Node, 44);
+// No node any more, since a regrowth has taken it out; of its flags its place in its chunk stays.
+FN bool isGap(IN(Node) n) { return n.radius < 0.0f; }
 
 // Where the walk was going is kept as 2×8 octahedral bits in the lowest four of each half of normal and tangent, which
 // are of no account there.

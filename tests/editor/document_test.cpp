@@ -126,6 +126,23 @@ TEST_CASE("what can't be undone stays, to be tried again") {
     CHECK(editing.document->redoName() == nullptr);
 }
 
+TEST_CASE("a step of several edits is undone as a whole or not at all") {
+    const Folder folder;
+    Editing editing(smallScene(folder));
+    REQUIRE(editing.perform(SetParam{0, {"reach", {1.3f}}}, 7));
+    REQUIRE(editing.perform(SetLight{9, 0, true}, 7));
+    REQUIRE(editing.document->undoSteps() == 1);
+    const uint64_t state = editing.document->state();
+    REQUIRE(espDestroyGrammar(editing.context.get(), editing.document->scene().grammars[0].id) == ESP_OK);
+    for (int i = 0; i < 2; ++i) {
+        CHECK(!editing.perform(Undo{}));  // the light could be undone, the parameter can't
+        CHECK(editing.document->scene().hour == 9);
+        CHECK(editing.document->undoSteps() == 1);
+        CHECK(editing.document->state() == state);
+        CHECK(editing.document->redoName() == nullptr);
+    }
+}
+
 TEST_CASE("a layer may be called as what tells a town from a scene") {
     for (const char* layer : {"buildings", "FeatureCollection"}) {
         const Folder folder;

@@ -117,6 +117,22 @@ TEST_CASE("a ray's length doesn't matter to what it meets, and how far off") {
     }
 }
 
+TEST_CASE("plants are picked where their surface stands, at once") {
+    FailingDevice device;
+    Life life;
+    REQUIRE((life.create(device) && life.load() && life.compile() && life.plant(1) && life.update()));
+    const float origin[3] = {.1f, .02f, 2}, moved[3] = {5.1f, .02f, 2}, direction[3] = {0, 0, -1};
+    EspPlantHit before{}, after{};
+    REQUIRE(espPickPlant(life.context, origin, direction, &before) == ESP_OK);
+    EspTransform place = espIdentity();
+    place.rows[0][3] = 5;
+    REQUIRE(espMoveSurface(life.context, life.surface, &place) == ESP_OK);
+    CHECK(espPickPlant(life.context, origin, direction, &after) != ESP_OK);
+    REQUIRE(espPickPlant(life.context, moved, direction, &after) == ESP_OK);
+    CHECK(after.branch == before.branch);
+    CHECK(after.distance == doctest::Approx(before.distance).epsilon(1e-4));
+}
+
 TEST_CASE("a call without a context says so, whatever the last one said") {
     EspContext* context = nullptr;
     CHECK(espCreate(nullptr, nullptr) == ESP_INVALID_ARGUMENT);

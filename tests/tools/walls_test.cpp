@@ -146,6 +146,28 @@ TEST_CASE("each footprint that is mended or left out is told of with its file") 
         CHECK_MESSAGE(contains(ran.output, std::string("plan.json: warning: ") + house + ": "), ran.output);
 }
 
+TEST_CASE("outlines of very many corners without a turn are done in time, and leave four corners of each") {
+    const Folder folder;
+    std::string plan = "{\"buildings\": [";
+    for (int house = 0; house < 20; ++house) {
+        plan += std::string(house ? ", " : "") + "{\"id\": \"h" + std::to_string(house) + "\", \"outer\": [";
+        const double corner[4][2] = {{0, 0}, {400, 0}, {400, 300}, {0, 300}};
+        for (int side = 0; side < 4; ++side)
+            for (int i = 0; i < 4900; ++i) {
+                const double *a = corner[side], *b = corner[(side + 1) % 4], t = i / 4900.0;
+                plan += (side + i ? ", [" : "[") + std::to_string(500 * house + a[0] + t * (b[0] - a[0])) + "," +
+                        std::to_string(a[1] + t * (b[1] - a[1])) + "]";
+            }
+        plan += "]}";
+    }
+    folder.write("plan.json", plan + "]}");
+    // Seconds of the processor's, which a busy machine has no part in.
+    const Ran ran =
+        run("ulimit -t 6; cd " + folder.path.string() + " && " + program("espalier-bake") + " plan.json -o town.glb");
+    CHECK_MESSAGE(ran.code == 0, ran.output);
+    CHECK_MESSAGE(contains(ran.output, "20 houses, 280 triangles"), ran.output);
+}
+
 TEST_CASE("a town that a limit cut short is written all the same, and how much of it was is told") {
     const Folder folder;
     folder.write("plan.json", R"({"buildings": [{"id": "a", "outer": [[0, 0], [8, 0], [8, 6], [0, 6]]}]})");

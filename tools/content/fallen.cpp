@@ -17,7 +17,7 @@ namespace {
 using glm::vec2, glm::vec3;
 
 constexpr int kFaces = 6, kCell = 128, kColumns = 8;  // of the picture, which has a cell for each face of a stone
-constexpr float kMargin = 3.0f / kCell;              // of a cell, so that coarse levels read no other face
+constexpr float kMargin = 3.0f / kCell;               // of a cell, so that coarse levels read no other face
 
 // A block that rain has rounded, uneven, mossy where it looks up, damp where it lies in the soil.
 struct Worn {

@@ -205,8 +205,13 @@ bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string&
     from.pop_back();
     Step opposite{step.name, 0, step.state, {}};
     while (!step.back.empty() && carryOut(step.back.back(), opposite.back, error)) step.back.pop_back();
-    const bool whole = step.back.empty(), begun = !opposite.back.empty();
-    // What couldn't be done stays to be tried again; what was done before it can be taken back by itself.
+    const bool whole = step.back.empty();
+    // All of it or nothing. Where not even what was done of it can be taken back, that is a step of its own, and what
+    // couldn't be done stays to be tried again.
+    std::string unheard;
+    while (!whole && !opposite.back.empty() && carryOut(opposite.back.back(), step.back, unheard))
+        opposite.back.pop_back();
+    const bool begun = !opposite.back.empty();
     if (!whole) {
         if (begun) ++revision_, (&from == &done_ ? step : opposite).state = ++lastState_;
         from.push_back(std::move(step));
@@ -297,16 +302,22 @@ bool Document::carryOut(const ChangeSeeds& action, std::vector<Action>& back, st
         scene_.seeds[i].planted = before[i].planted;
         scene_.seeds[i].frozen = before[i].frozen;
     }
-    if (!(onlyMoved && allPlanted_ ? moveSeeds(action) : replant(before, error))) return false;
+    if (!(onlyMoved && allPlanted_ ? moveSeeds(action, before, error) : replant(before, error))) return false;
     back.push_back(std::move(inverse));
     return true;
 }
 
 // Only what grows from these seeds grows anew.
-bool Document::moveSeeds(const ChangeSeeds& action) {
-    for (const SeedRecord& record : action.seeds)
-        espMoveSeed(context_, scene_.seeds[indexOf(record.key)].planted, record.position.data(),
-                    record.direction.data());
+bool Document::moveSeeds(const ChangeSeeds& action, const std::vector<Seed>& before, std::string& error) {
+    const auto move = [&](const Seed& seed) {
+        return espMoveSeed(context_, seed.planted, seed.position.data(), seed.direction.data());
+    };
+    for (const SeedRecord& record : action.seeds) {
+        if (!failed(move(scene_.seeds[indexOf(record.key)]), error)) continue;
+        scene_.seeds = before;
+        for (const SeedRecord& moved : action.seeds) (void)move(scene_.seeds[indexOf(moved.key)]);
+        return false;
+    }
     return true;
 }
 

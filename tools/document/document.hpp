@@ -121,7 +121,7 @@ class Document {
     bool takeBack(std::vector<Action>& back);
     std::string unreadPlant(uint32_t seed) const;  // its file; empty: it was read, or there is none
     std::string takeUnread(uint32_t seed, const std::string& unread);
-    bool moveSeeds(const ChangeSeeds& action);
+    bool moveSeeds(const ChangeSeeds& action, const std::vector<scene::Seed>& before, std::string& error);
     bool plant(std::string& error);
     bool replant(const std::vector<scene::Seed>& before, std::string& error);
     size_t indexOf(uint32_t key) const;

@@ -25,8 +25,6 @@ using scene::kHashDigits;
 using scene::SceneFile;
 using scene::SceneLayer;
 
-constexpr const char* kProject = "project.json";
-constexpr const char* kAutosave = "autosave.json";
 constexpr const char* kLayers = "layers";
 constexpr const char* kPlants = "plants";
 constexpr const char* kSurfaces = "surfaces";
@@ -178,16 +176,17 @@ void sweep(const fs::path& folder, const std::vector<std::string>& kept) {
     std::error_code ignored;
     std::string wanted, text, error;
     for (const std::string& file : kept) wanted += fs::path(file).filename().string() + "\n";
-    for (const char* file : {kProject, kAutosave}) {
+    for (const char* file : {scene::kProjectFile, scene::kAutosaveFile}) {
         if (!fs::exists(folder / file, ignored)) continue;
         if (!scene::readText((folder / file).string(), text, error)) return;  // who knows what it names
         wanted += text;
     }
     for (const fs::path& place : {folder, folder / kLayers, folder / kPlants, folder / kSurfaces}) {
-        for (const auto& entry : fs::directory_iterator(place, ignored)) {
-            const std::string name = entry.path().filename().string();
+        for (fs::directory_iterator entry(place, ignored), end; entry != end; entry.increment(ignored)) {
+            const std::string name = entry->path().filename().string();
             const bool unwanted = place != folder && named(name) && wanted.find(name) == std::string::npos;
-            if (isAbandoned(name) || unwanted) fs::remove(entry.path(), ignored);
+            std::error_code stays;
+            if (isAbandoned(name) || unwanted) fs::remove(entry->path(), stays);
         }
         if (place != folder && fs::is_directory(fs::symlink_status(place, ignored)))
             fs::remove(place, ignored);  // if nothing is in it
@@ -206,14 +205,20 @@ bool writeScene(const std::string& path, const SceneFile& file, std::string& err
 // What project.json of the folder holds, as an autosave names it; empty: there is none.
 std::string projectIn(const fs::path& folder) {
     std::string text, ignored;
-    return scene::readText((folder / kProject).string(), text, ignored) ? scene::hashName(text.data(), text.size())
-                                                                        : "";
+    return scene::readText((folder / scene::kProjectFile).string(), text, ignored)
+               ? scene::hashName(text.data(), text.size())
+               : "";
+}
+
+enum class Kept { project, autosave };
+const char* fileOf(Kept kept) {
+    return kept == Kept::autosave ? scene::kAutosaveFile : scene::kProjectFile;
 }
 
 // What isn't complete in the end leaves no files: a disk that was full has room again.
-bool write(ProjectData data, const std::string& folder, const char* name, Progress& progress, std::string& error) {
-    const std::string path = (fs::path(folder) / name).string();
-    const bool keeps = name == kAutosave;  // which has other places, and nobody waits for
+bool write(ProjectData data, const std::string& folder, Kept kept, Progress& progress, std::string& error) {
+    const std::string path = (fs::path(folder) / fileOf(kept)).string();
+    const bool keeps = kept == Kept::autosave;  // which has other places, and nobody waits for
     WriteLock lock;
     if (!canName(folder, data.file, error) || !makeFolderDurably(folder, error) ||
         !lock.take(folder, keeps ? kKeepsAfter : kSavesAfter, progress, error))
@@ -221,7 +226,7 @@ bool write(ProjectData data, const std::string& folder, const char* name, Progre
     if (keeps) data.file.follows = projectIn(folder);
     const bool good = writeLayers(data, folder, progress, error) && writePlants(folder, data.file, error) &&
                       progress.at(1) && writeScene(path, data.file, error);
-    if (good && name == kProject) dropAutosave(folder);
+    if (good && !keeps) dropAutosave(folder);
     sweep(folder, data.history);
     return good;
 }
@@ -267,13 +272,13 @@ bool read(const Document& document, ProjectData::Layer& layer, std::string& erro
     return document.readLayer(size_t(layer.surface), layer.name, layer.picture, error);
 }
 
-Work::Plan writing(const Document& document, const std::string& folder, const char* name) {
+Work::Plan writing(const Document& document, const std::string& folder, Kept kept) {
     Work::Plan plan;
     const auto data = std::make_shared<ProjectData>(outline(document));
     for (ProjectData::Layer& layer : data->layers)
         plan.before.push_back([&document, &layer](std::string& error) { return read(document, layer, error); });
-    plan.beside = [data, folder, name](Progress& progress, std::string& error) {
-        return write(std::move(*data), folder, name, progress, error);
+    plan.beside = [data, folder, kept](Progress& progress, std::string& error) {
+        return write(std::move(*data), folder, kept, progress, error);
     };
     return plan;
 }
@@ -286,15 +291,15 @@ bool gather(const Document& document, ProjectData& out, std::string& error) {
 }
 
 bool writeProject(ProjectData data, const std::string& folder, Progress& progress, std::string& error) {
-    return write(std::move(data), folder, kProject, progress, error);
+    return write(std::move(data), folder, Kept::project, progress, error);
 }
 
 bool writeAutosave(ProjectData data, const std::string& folder, Progress& progress, std::string& error) {
-    return write(std::move(data), folder, kAutosave, progress, error);
+    return write(std::move(data), folder, Kept::autosave, progress, error);
 }
 
 Work::Plan saving(const Document& document, const std::string& folder) {
-    return writing(document, folder, kProject);
+    return writing(document, folder, Kept::project);
 }
 
 bool saveProject(const Document& document, const std::string& folder, std::string& error) {
@@ -302,7 +307,7 @@ bool saveProject(const Document& document, const std::string& folder, std::strin
 }
 
 Work::Plan autosaving(const Document& document, const std::string& folder) {
-    return writing(document, folder, kAutosave);
+    return writing(document, folder, Kept::autosave);
 }
 
 bool autosave(const Document& document, const std::string& folder, std::string& error) {
@@ -311,7 +316,7 @@ bool autosave(const Document& document, const std::string& folder, std::string& 
 
 std::string recoverable(const std::string& folder) {
     std::error_code none;
-    const fs::path kept = fs::path(folder) / kAutosave, project = fs::path(folder) / kProject;
+    const fs::path kept = fs::path(folder) / scene::kAutosaveFile, project = fs::path(folder) / scene::kProjectFile;
     if (!fs::exists(kept, none)) return {};
     // By what it says; files that are copied or checked out are of any time.
     scene::Json json;
@@ -326,7 +331,7 @@ std::string recoverable(const std::string& folder) {
 
 void dropAutosave(const std::string& folder) {
     std::error_code ignored;
-    fs::remove(fs::path(folder) / kAutosave, ignored);
+    fs::remove(fs::path(folder) / scene::kAutosaveFile, ignored);
 }
 
 }  // namespace espalier::document

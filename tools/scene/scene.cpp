@@ -93,7 +93,7 @@ bool takeProject(std::string& file, std::string& error) {
     namespace fs = std::filesystem;
     std::error_code failed;
     if (!fs::is_directory(file, failed)) return true;
-    const fs::path project = fs::path(file) / "project.json";
+    const fs::path project = fs::path(file) / kProjectFile;
     if (!fs::exists(project, failed)) {
         error = file + (failed ? ": can't be read: " + failed.message()
                                : std::string(": is a folder without a project.json, so no project"));

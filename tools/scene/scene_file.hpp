@@ -10,6 +10,10 @@
 
 namespace espalier::scene {
 
+// In a project's folder: what was saved, and what was kept of it since.
+inline constexpr const char* kProjectFile = "project.json";
+inline constexpr const char* kAutosaveFile = "autosave.json";
+
 struct SceneParam {
     ParamValue value;
     std::string place;  // "file:line:column", for messages
