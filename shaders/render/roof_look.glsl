@@ -76,6 +76,14 @@ vec3 mirrored(vec3 n, vec3 position) {
     vec3 seen = mix(across, skyColor(ray), smoothstep(-0.03, 0.03, ray.y - crest));
     return seen * (0.18 + 0.82 * (c * c) * (c * c) * c);
 }
+// When it is dark, some rooms are lit. own: a number of the pane's, 0 to 1.
+vec3 lamplight(float own) {
+    const vec3 weights = vec3(0.3, 0.6, 0.1);
+    float dark = 1.0 - smoothstep(0.06, 0.24, dot(frame.background, weights));
+    dark *= 1.0 - smoothstep(0.6, 1.8, dot(frame.sunColor, weights));
+    float lamp = own < 0.4 ? 0.45 + 1.4 * own : 0.0;
+    return vec3(1.0, 0.60, 0.24) * (dark * lamp);
+}
 const float kClear = 150.0, kHazy = 400.0;   // metres
 // What of the sun's and the sky's light a surface gets.
 struct RoofLight {

@@ -29,7 +29,7 @@ void main() {
     vec3 base = weathered(unpackColour(look.x) * surface.z, variation, max(surface.w, 0.0), position);
     base = mossy(push.env.v[0], look.w, base, position, clamp(1.0 - surface.z, 0.0, 1.0));
     vec3 from = vec3(0.0);
-    if (surface.w < 0.0) from = mirrored(n, position);
+    if (surface.w < 0.0) from = mirrored(n, position) + lamplight(float((look.y >> 8u) & 255u) * (1.0 / 255.0));
     color = shade(base, n, lightOn(n), position, push.roughness, from);
     if (layerOver()) color = mix(color, otherView(push.env.v[0], shown, n, position), frame.layerOpacity);
 }

@@ -154,6 +154,8 @@ TEST_CASE("nothing stands in a house or on a street, and streets lead past no wa
     auto doors = findDoors("content/street.json", "content/grammars/town.grammar");
     REQUIRE(doors);
     const Site site = makeSite(*houses, *doors, 256);
+    // Far from all, the ground isn't trodden: what is at the map's rim goes on for ever.
+    for (int y = 0; y < site.map.height; ++y) CHECK(site.map.at(0, y)[1] == 0);
     CHECK(site.props.at("well").size() == 1);
     size_t trees = 0;
     for (const auto& [model, places] : site.props)

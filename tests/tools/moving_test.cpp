@@ -61,3 +61,29 @@ TEST_CASE("a capture's hour is that of its light") {
     };
     CHECK(brightness("12") > 1.3 * brightness("0"));
 }
+
+TEST_CASE("some rooms are lit by night, where panes mirror the sky by day") {
+    const Folder folder;
+    const auto picture = [&](const char* hour) {
+        const Ran ran =
+            run(program("espalier-capture") + " " + content("hamlet.json") +
+                " --size 320x180 --camera=3.5,1.75,-40,-4,2.5,-54,50 --hour " + hour + " -o " + folder.file("frames"));
+        REQUIRE_MESSAGE(ran.code == 0, ran.output);
+        ColourPicture taken;
+        std::string error;
+        REQUIRE_MESSAGE(readColour(folder.file("frames/frame_0000.png"), taken, error), error);
+        return taken;
+    };
+    const ColourPicture night = picture("21"), day = picture("13");
+    size_t lit = 0;
+    double red = 0, blue = 0;
+    for (size_t i = 0; i < night.rgba.size(); i += 4) {
+        if (night.rgba[i] < 160 || night.rgba[i] < 1.4 * night.rgba[i + 2]) continue;
+        ++lit;
+        red += day.rgba[i];
+        blue += day.rgba[i + 2];
+    }
+    CHECK(lit > 200);
+    CHECK(lit < night.rgba.size() / 4 / 20);
+    CHECK(red < blue);
+}

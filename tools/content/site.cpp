@@ -39,9 +39,10 @@ void paintMap(const Plan& plan, const std::vector<glm::vec3>& shades, Site& site
             const float paved = plan.paved(p), house = plan.toHouse(p), court = Plan::toCourt(p);
             // The court's own paving goes on where the path comes to it.
             const float uneven = noise(p / 1.3f, 71) + 0.6f * noise(p / 0.5f, 72);
-            float earth = 0.62f * ramp(-0.55f - 0.4f * uneven, -0.05f, paved);        // beside kerbs
-            earth = std::max(earth, 0.7f * ramp(1.1f + 0.6f * uneven, 0.2f, house));  // around houses
-            earth = std::max(earth, 0.16f * ramp(0.9f + uneven, 0.0f, court));
+            // Edges never swap: where they did, far ground would be as bare as at the kerb.
+            float earth = 0.62f * ramp(std::min(-0.55f - 0.4f * uneven, -0.1f), -0.05f, paved);        // beside kerbs
+            earth = std::max(earth, 0.7f * ramp(std::max(1.1f + 0.6f * uneven, 0.25f), 0.2f, house));  // around houses
+            earth = std::max(earth, 0.16f * ramp(std::max(0.9f + uneven, 0.05f), 0.0f, court));
             earth = std::max(earth, (0.82f + 0.2f * uneven) * ramp(-0.28f - 0.25f * uneven, 0.16f, plan.trodden(p)));
             for (glm::vec3 w : worn)
                 earth = std::max(earth, 0.55f * ramp(1.2f + 0.4f * uneven, 0.3f, glm::distance(p, vec2(w)) / w.z));
