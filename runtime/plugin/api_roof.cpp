@@ -196,6 +196,8 @@ EspResult espLoadTown(EspContext* context, const EspTownDef* def) {
             if (!grammar || !grammar->map.roofs())
                 return fail(context, ESP_INVALID_ARGUMENT, "espLoadTown: no such grammar, or one that makes no roofs");
         }
+        if (context->roofMeshNames.empty())
+            if (EspResult unreadable = checkReadable(context, context->roofMeshFile.c_str())) return unreadable;
         if (Status known = knowRoofMeshes(*context); !known) return failContent(context, known.failure());
         Result<LoadedTown> town = prepare(*context, *def);
         if (!town) return failContent(context, town.failure());

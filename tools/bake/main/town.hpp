@@ -18,7 +18,7 @@ struct TownArguments {
     bool quiet = false;
 };
 
-// True if the file holds footprints: .geojson, or .json with features or buildings.
+// Whether it is a file of footprints: .geojson, or .json that is no glTF.
 bool isTown(const std::string& path);
 
 // Writes the town, and its footprints in the extension ESPALIER_town. Features
