@@ -223,7 +223,7 @@ bool App::frame(float seconds) {
     if (const std::string file = input_->takeDropped(); !file.empty() && !replays) {
         if (!work_.editing) controls_->setEditing(true);  // where it can be asked about
         controls_->finishTools();
-        askToLeave(work_, session_, file);
+        if (Replay::names(file) || espalier::scene::mayOpen(file, work_.error)) askToLeave(work_, session_, file);
     }
     fadeNews();
     showUi();

@@ -47,7 +47,7 @@ bool Controls::takeBackDrag() {
 void Controls::finishTools() {
     brush_.cancel(work_);  // keeps what is painted
     seeds_.finish(work_);
-    houses_.finish();
+    houses_.finish(work_);
     finishDrag();
     noteTools();
 }

@@ -154,7 +154,7 @@ bool Workspace::meets(const Ray& ray, float reach, EspHit& met) const {
         found = true;
     };
     const std::optional<EspTownInfo> there = town();
-    if ((scene().look.ground || there) && ray.direction.y < 0) {
+    if ((scene().look.ground || there) && ray.direction.y != 0) {
         const float level = scene().look.ground ? scene().look.groundLevel : there->groundHeight;
         const float down = (level - ray.origin.y) / ray.direction.y;
         if (down >= 0 && down < (found ? met.distance : reach)) nearer(down, {0, 1, 0});

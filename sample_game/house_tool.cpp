@@ -216,6 +216,11 @@ void HouseTool::cancel(Workspace& work) {
     corner_.reset();
 }
 
+void HouseTool::finish(Workspace& work) {
+    if (refused_) return cancel(work);
+    corner_.reset();
+}
+
 void HouseTool::removeCorner(Workspace& work) {
     if (!work.house || !work.houseEdge) {
         work.message = work.house ? "Click an edge of the outline: Del takes away the corner where it begins"

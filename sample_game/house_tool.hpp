@@ -12,7 +12,7 @@ class HouseTool {
     bool take(Workspace& work, const PointerEvent& event);
     void removeCorner(Workspace& work);  // where the chosen edge begins
     void cancel(Workspace& work);        // a drag, as if it hadn't been
-    void finish() { corner_.reset(); }   // it stays as it is by now
+    void finish(Workspace& work);        // it stays as it is by now, unless no roof can be there
     bool dragging() const { return corner_.has_value(); }
     void draw(const Workspace& work) const;
 

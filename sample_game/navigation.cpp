@@ -122,14 +122,7 @@ void Navigation::approach(Workspace& work, float steps, glm::vec3 way) {
     if (open_) work.camera.advance(beyond, way, stride_);
 }
 
-bool Navigation::step(Workspace& work, const Input& input, float seconds, bool typing) {
-    const auto axis = [&](int more, int less) { return float(input.down(more)) - float(input.down(less)); };
-    // In the editor letters are tools' keys; they fly only while the right button looks around.
-    const bool keys = !typing && !(input.mods() & GLFW_MOD_CONTROL) && (!work.editing || drag_ == Drag::look);
-    const bool fast = input.mods() & GLFW_MOD_SHIFT;
-    glm::vec3 steps{0};
-    if (keys) steps = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_W, GLFW_KEY_S)};
-    const glm::vec3 before = work.camera.eye();
+void Navigation::go(Workspace& work, glm::vec3 steps, float seconds, bool fast) {
     if (work.editing || flying_) {
         if (steps != glm::vec3(0)) work.camera.fly(steps, seconds, fast);
     } else if (steps != glm::vec3(0) || jump_ || work.camera.inAir()) {
@@ -144,6 +137,16 @@ bool Navigation::step(Workspace& work, const Input& input, float seconds, bool t
         walked_ = work.camera.eye();
     }
     jump_ = false;
+}
+
+bool Navigation::step(Workspace& work, const Input& input, float seconds, bool typing) {
+    const auto axis = [&](int more, int less) { return float(input.down(more)) - float(input.down(less)); };
+    // In the editor letters are tools' keys; they fly only while the right button looks around.
+    const bool keys = !typing && !(input.mods() & GLFW_MOD_CONTROL) && (!work.editing || drag_ == Drag::look);
+    glm::vec3 steps{0};
+    if (keys) steps = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_W, GLFW_KEY_S)};
+    const glm::vec3 before = work.camera.eye();
+    go(work, steps, seconds, input.mods() & GLFW_MOD_SHIFT);
     if (before != work.camera.eye()) strayed_ = true, wheeled_.reset();
     const bool moved = moved_ || before != work.camera.eye();
     moved_ = false;

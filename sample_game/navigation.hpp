@@ -21,6 +21,8 @@ class Navigation {
     void wheel(Workspace& work, float steps, glm::vec2 mouse);
     // Once a frame: keys that are down, for `seconds`. True: the camera moved.
     bool step(Workspace& work, const Input& input, float seconds, bool typing);
+    // By `steps` right, up and ahead, -1 to 1: flies in the editor and where G is on, else walks.
+    void go(Workspace& work, glm::vec3 steps, float seconds, bool fast);
     void toggleFlying() { flying_ = !flying_; }
     bool flying() const { return flying_; }
     void jump() { jump_ = true; }

@@ -214,7 +214,6 @@ void chosenSeeds(Workspace& work) {
         RemoveSeeds remove;
         for (const SeedRecord& seed : chosen) remove.keys.push_back(seed.key);
         work.perform(remove);
-        work.selected.clear();
     }
     toolTip("The chosen seeds go, with what grew from them");
 }
@@ -306,7 +305,6 @@ void seedsPanel(Workspace& work) {
         RemoveSeeds all;
         for (const Seed& seed : scene.seeds) all.keys.push_back(seed.key);
         work.perform(all);
-        work.selected.clear();
     }
     toolTip("All seeds of the scene go; Ctrl+Z brings them back");
     ImGui::EndDisabled();

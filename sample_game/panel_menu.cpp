@@ -94,7 +94,6 @@ std::string fitted(const Hint& hint, float room) {
     }
 }
 
-// A red dot, so far from the bar's right end.
 // What is open, at the bar's right end: as much of its name as there is room for beside the menus.
 void showName(const Workspace& work, const Session& session) {
     constexpr const char* kSign = "REC";

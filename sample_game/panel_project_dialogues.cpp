@@ -92,9 +92,13 @@ void leave(Session& session) {
 void leavingDialogue(Workspace& work, Session& session) {
     if (!beginDialogue("Unsaved changes")) return;
     Dialogues& d = dialogues();
+    const auto named = [](const std::string& file) {
+        const bool project = fs::path(file).filename() == espalier::scene::kProjectFile;
+        return espalier::scene::lastPart(project ? fs::path(file).parent_path().string() : file);
+    };
     const std::string next = !d.next           ? ""
                              : d.next->empty() ? "Before the program ends:\n"
-                                               : "Before " + fs::path(*d.next).filename().string() + " is opened:\n";
+                                               : "Before " + named(*d.next) + " is opened:\n";
     say(next + session.name(work) + " has changes that aren't saved.");
     const bool saves = ImGui::Button("Save") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
     ImGui::SameLine();
@@ -192,7 +196,7 @@ void projectDialogues(Workspace& work, Session& session) {
              true},
             [&](const char* file) {
                 // What can't be opened is told before anybody is asked about unsaved work.
-                const bool good = espalier::scene::mayOpen(file, work.error);
+                const bool good = Replay::names(file) || espalier::scene::mayOpen(file, work.error);
                 if (good) askToLeave(work, session, file);
                 d.turn = turnOf(work, good);
             });

@@ -142,12 +142,21 @@ float ViewCamera::hurry(float steps) {
 }
 
 void ViewCamera::stand(const Meets& meets) {
-    constexpr float kFar = 1e6f;
-    EspHit ground;
-    const bool above = meets(eye_, {0, -1, 0}, kFar, ground);
-    if (above ? ground.distance < kEyeHeight : meets(eye_, {0, 1, 0}, kFar, ground))
-        eye_.y = ground.position[1] + kEyeHeight;
+    constexpr float kFar = 1e6f, kThrough = 1e-3f;
+    constexpr int kMostLayers = 32;
     fall_ = 0;
+    EspHit ground;
+    if (meets(eye_, {0, -1, 0}, kFar, ground)) {
+        eye_.y = std::max(eye_.y, ground.position[1] + kEyeHeight);
+        return;
+    }
+    // Below all ground: up through what has no room to stand above it.
+    float foot = eye_.y, room = kFar;
+    for (int i = 0; i < kMostLayers && meets({eye_.x, foot, eye_.z}, {0, 1, 0}, room, ground); ++i) {
+        foot = ground.position[1] + kThrough;
+        room = kEyeHeight;
+        eye_.y = ground.position[1] + kEyeHeight;
+    }
 }
 
 void ViewCamera::walk(const Meets& meets, glm::vec2 rightAhead, float seconds, bool fast, bool jump) {

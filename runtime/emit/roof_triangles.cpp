@@ -54,11 +54,13 @@ class GridWriter {
     bool run(size_t most) {
         if (lod_ && g_.firstRow == kNoIndex) cell(0, 0, true);
         const uint32_t rows = lod_ && g_.firstRow != kNoIndex ? g_.cells >> 16 : 0;
-        for (uint32_t row = 0; row < rows && out_.bytes() <= most; ++row) {
+        for (uint32_t row = 0; row < rows; ++row) {
             const RoofRun run = env_.runs.v[g_.firstRow + row];
             const uint32_t whole = runFirst(run.whole), wholeEnd = whole + runCount(run.whole);
-            for (uint32_t c = runFirst(run.touched); c < runFirst(run.touched) + runCount(run.touched); ++c)
+            for (uint32_t c = runFirst(run.touched); c < runFirst(run.touched) + runCount(run.touched); ++c) {
+                if (out_.bytes() > most) return false;
                 if (!drops_ || !cellDropped(env_, g_, c, row)) cell(c, row, c >= whole && c < wholeEnd);
+            }
         }
         return out_.bytes() <= most;
     }

@@ -207,7 +207,7 @@ class GpuGrowth final : public Growth {
     GrowthView view_;
     GrowthStats stats_;
     Origin origin_;        // of the growth that is shown
-    bool whole_ = false;   // no limit cut it, and no exception an edit of it: edits may grow only what they concern
+    bool whole_ = false;   // no limit cut it, and no failure an edit of it: edits may grow only what they concern
     uint32_t widest_ = 0;  // items of its widest wave
 };
 

@@ -47,7 +47,7 @@ EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices,
         part.normals.clear();
         part.colours.clear();
         part.indices.clear();
-        const bool all = appendGrid(env, grid, *context.roofMeshes, part, kMostBytes);
+        const bool all = appendGrid(env, grid, *context.roofMeshes, part, 2 * kMostBytes);
         if (!all || vertices.size() + indices.size() - plants + part.positions.size() * 16 + part.indices.size() * 4 >
                         kMostBytes)
             return fail(&context, ESP_OUT_OF_MEMORY, "espMaterialise: the town's triangles are more than 2 GiB");

@@ -61,8 +61,8 @@ void keepOutermost(std::vector<glm::dvec2>& points) {
 
 // Drops corners that repeat the one before, end a spike or don't turn. Corners dropped between two kept ones stay
 // within kStraight of the new edge, so that curved walls don't melt; after kMostGone that bound it, one stays, so that
-// an outline of any number of corners is done in time. Returns whether any was dropped.
-bool simplifyRing(std::vector<glm::dvec2>& ring) {
+// an outline of very many corners without a turn is done in time.
+void simplifyRing(std::vector<glm::dvec2>& ring) {
     struct Corner {
         size_t before, after;
         std::vector<glm::dvec2> gone;  // between it and the one after
@@ -107,9 +107,7 @@ bool simplifyRing(std::vector<glm::dvec2>& ring) {
     }
     std::vector<glm::dvec2> kept;
     for (size_t i = first; left >= 3 && kept.size() < left; i = corners[i].after) kept.push_back(ring[i]);
-    const bool changed = kept.size() < count;
     ring = std::move(kept);
-    return changed;
 }
 
 struct Segment {

@@ -220,6 +220,27 @@ TEST_CASE("numpad 0 leads back to where the scene begins, and so does Home in th
     CHECK(away() < 1e-4f);
 }
 
+TEST_CASE("who walks where the editor looked from below, or low above the ground, stands on it") {
+    const Folder folder;
+    std::string scene = readAll(smallScene(folder));
+    scene.insert(scene.find('{') + 1, "\"ground\": {\"level\": 0.1},");
+    Editor visitor(folder, folder.write("meadow.json", scene), Tool::look);
+    visitor.controls.setEditing(false);
+    sample::ViewCamera& walker = visitor.work.camera;
+    for (const float height : {.3f, -.5f}) {
+        CAPTURE(height);
+        EspCamera camera = walker.camera();
+        const float eye[3] = {0, .1f + height, 6}, target[3] = {0, eye[1], 7};
+        std::copy(eye, eye + 3, camera.eye);
+        std::copy(target, target + 3, camera.target);
+        walker.set(camera, 10);
+        sample::Navigation legs;
+        for (int i = 0; i < 20; ++i) legs.go(visitor.work, {0, 0, 1}, .05f, false);
+        CHECK(walker.eye().y == doctest::Approx(.1f + 1.65f).epsilon(.01));
+        CHECK(walker.eye().z > 7);
+    }
+}
+
 TEST_CASE(
     "what is pressed upon stays under the mouse when the camera moves sideways, and in the middle when it turns") {
     const Folder folder;

@@ -235,7 +235,7 @@ TEST_CASE("seeds that undo has taken away count as chosen only once redo has bro
     CHECK(gardener.seed(a).position == array(gardener.under(to)));
 }
 
-TEST_CASE("Del and X remove what is chosen, and undo brings all of it back") {
+TEST_CASE("Del and X remove what is chosen, and undo brings all of it back, chosen") {
     const Folder folder;
     Gardener gardener(folder);
     (void)gardener.plant(gardener.onWall(-1.2f, .8f));
@@ -246,14 +246,15 @@ TEST_CASE("Del and X remove what is chosen, and undo brings all of it back") {
         gardener.work.selected = {before[0].key, before[2].key};
         gardener.key(key);
         CHECK(gardener.seeds() == std::vector{before[1]});
-        CHECK(gardener.work.selected.empty());
         CHECK(gardener.steps() == steps + 1);
-        gardener.undo();
+        gardener.key(key);  // those that are gone aren't chosen
+        CHECK(gardener.work.message == "No seed is chosen: click one");
+        CHECK(gardener.steps() == steps + 1);
+        gardener.undo();  // nor are others, once they are back
         CHECK(gardener.seeds() == before);
+        CHECK(gardener.work.selected == Keys{before[0].key, before[2].key});
+        gardener.work.message.clear();
     }
-    gardener.key(GLFW_KEY_DELETE);  // nothing is chosen
-    CHECK(gardener.work.message == "No seed is chosen: click one");
-    CHECK(gardener.steps() == steps);
 }
 
 TEST_CASE("a frozen plant stays where it is, and says so") {

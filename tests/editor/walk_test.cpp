@@ -43,9 +43,10 @@ struct World {
                 if (a > first) first = a, normal = glm::vec3(0), normal[i] = along[i] > 0 ? -1.f : 1.f;
                 last = std::min(last, b);
             }
-            if (first <= 0 || first > last) continue;
-            reach = hit.distance = first;
-            const glm::vec3 at = from + first * along;
+            const float met = first > 0 ? first : last;  // from inside its far side
+            if (first > last || met <= 0 || (first <= 0 && last >= reach)) continue;
+            reach = hit.distance = met;
+            const glm::vec3 at = from + met * along;
             std::copy(&at.x, &at.x + 3, hit.position);
             std::copy(&normal.x, &normal.x + 3, hit.normal);
             found = true;
@@ -116,7 +117,7 @@ TEST_CASE("who looked from the height of a knee, or from below, stands on the gr
     }
 }
 
-TEST_CASE("who is below all ground stands upon it") {
+TEST_CASE("who is below all ground stands upon it, and walks there") {
     World world({});
     EspCamera camera = world.walker.camera();
     camera.eye[1] = camera.target[1] = -3;
@@ -124,19 +125,20 @@ TEST_CASE("who is below all ground stands upon it") {
     world.walker.stand([&](glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
         return world.meets(from, along, reach, hit);
     });
-    CHECK(world.walker.eye().y == doctest::Approx(-1 + kEyes));  // the floor's underside, which the ray meets
+    CHECK(world.walker.eye().y == doctest::Approx(kEyes));  // over the floor's upper side, a metre above its lower one
+    CHECK(world.go({0, 1}, 1).y == doctest::Approx(kEyes));
 }
 
-TEST_CASE("who flew high falls, and isn't put down") {
+TEST_CASE("who flew high isn't put down, but falls") {
     World world({});
     EspCamera camera = world.walker.camera();
     camera.eye[1] = camera.target[1] = 8;
     world.walker.set(camera, 10);
-    const sample::Meets rays = [&](glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
+    world.walker.stand([&](glm::vec3 from, glm::vec3 along, float reach, EspHit& hit) {
         return world.meets(from, along, reach, hit);
-    };
-    world.walker.stand(rays);
+    });
     CHECK(world.walker.eye().y == 8);
+    CHECK(world.go({0, 1}, 4).y == doctest::Approx(kEyes).epsilon(.01));
 }
 
 TEST_CASE("a jump on the spot goes as high at any frame rate, and comes down again") {

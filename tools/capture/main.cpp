@@ -48,7 +48,7 @@ struct Options {
     long long seed = -1;
     uint32_t maxNodes = espDefaultGrowDef().maxNodes;
     float leafCap = 0;
-    bool aimed = false;  // --camera says something, be it nothing
+    bool sized = false, aimed = false;  // --size, --camera say something, be it nothing
     bool shaders = false, validation = false, moving = false;
 };
 
@@ -366,7 +366,7 @@ int run(Options options) {
 std::string readTexts(Options& options) {
     if (const auto size = espalier::sizeSaid(options.size, 1, 16384); size)
         std::tie(options.width, options.height) = *size;
-    else if (!options.size.empty())
+    else if (options.sized)
         return "--size takes WIDTHxHEIGHT, 1 to 16384 each, not '" + options.size + "'";
     EspLook look{};
     if (!parseView(options.view, look)) return "--view: no such view: " + options.view;
@@ -402,6 +402,7 @@ int main(int argc, char** argv) {
     Options options;
     addOptions(app, options);
     if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
+    options.sized = app.count("--size") > 0;
     options.aimed = app.count("--camera") > 0;
     if (options.seed >= 0) options.request.seed = uint32_t(options.seed);
     if (options.request.file.empty() && options.replay.empty())

@@ -5,7 +5,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "runtime/core/srgb.hpp"
-#include "tools/content/builder.hpp"
 #include "tools/content/masonry.hpp"
 #include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
@@ -17,7 +16,7 @@ namespace {
 using glm::vec2, glm::vec3;
 
 constexpr int kFaces = 6, kCell = 128, kColumns = 8;  // of the picture, which has a cell for each face of a stone
-constexpr float kMargin = 3.0f / kCell;               // of a cell, so that coarse levels read no other face
+constexpr float kMargin = 3.0f / kCell;               // of a cell, so that near by no other face is read
 
 // A block that rain has rounded, uneven, mossy where it looks up, damp where it lies in the soil.
 struct Worn {

@@ -2,7 +2,6 @@
 // coordinates pick colours of the palette.
 
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include "runtime/core/srgb.hpp"
 #include "tools/content/builder.hpp"

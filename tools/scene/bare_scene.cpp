@@ -81,15 +81,6 @@ void fitToModel(EspContext* context, const EspSurfaceInfo& info, const LoadedGra
     }
 }
 
-// A glTF model as modelling programs write it: what a user may well try first.
-bool isUnbakedModel(const std::string& path) {
-    std::string text, ignored;
-    const std::string ending = std::filesystem::path(path).extension().string();
-    if ((ending != ".glb" && ending != ".gltf") || !readText(path, text, ignored)) return false;
-    const bool model = text.rfind("glTF", 0) == 0 || text.find("\"asset\"") != std::string::npos;
-    return model && text.find(kSurfaceExtension) == std::string::npos;
-}
-
 // glTF's unit is the metre, but many scans come in another: a statue of a centimetre, or of a kilometre, is shown as
 // one of two metres, so that ivy on it is ivy.
 bool loadAtLivingSize(EspContext* context, LoadedSurface& surface, EspSurfaceInfo& info, std::string& error) {
@@ -116,31 +107,25 @@ void layGround(float level, Scene& scene) {
 
 }  // namespace
 
-bool isNoSurface(const std::string& path) {
-    char begin[4];
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) return false;
-    std::ifstream in(path, std::ios::binary);
-    return in && (!in.read(begin, sizeof begin) || std::string_view(begin, sizeof begin) != "glTF");
-}
-
-std::string noneToOpen(const std::string& file) {
-    return file + ": neither a scene (.json), a town (.geojson) nor a baked surface (.glb)";
+bool isSurface(const std::string& path, std::string& error) {
+    std::string text;
+    if (!readText(path, text, error)) return false;
+    const bool glb = text.starts_with("glTF");
+    if (glb && text.find(kSurfaceExtension) != std::string::npos) return true;
+    // A model as modelling programs write it is what a user may well try first.
+    const bool model =
+        glb || (std::filesystem::path(path).extension() == ".gltf" && text.find("\"asset\"") != std::string::npos);
+    error = path + (model ? ": isn't baked yet: espalier-bake " + path + " -o SURFACE.glb (tools/run does it for you)"
+                          : ": neither a scene (.json), a town (.geojson) nor a baked surface (.glb)");
+    return false;
 }
 
 bool openSurface(EspContext* context, const Request& request, Scene& out, std::string& error) {
-    if (isUnbakedModel(request.file)) {
-        error = request.file + ": isn't baked yet: espalier-bake " + request.file +
-                " -o SURFACE.glb (tools/run does it for you)";
-        return false;
-    }
+    if (!isSurface(request.file, error)) return false;
     EspSurfaceInfo info;
     LoadedSurface& surface = out.surfaces.emplace_back();
     surface.file = request.file;
-    if (!loadAtLivingSize(context, surface, info, error)) {
-        if (isNoSurface(request.file)) error = noneToOpen(request.file);
-        return false;
-    }
+    if (!loadAtLivingSize(context, surface, info, error)) return false;
     const char* standard = request.layers.empty() ? "ivy_free.grammar" : "ivy_guided.grammar";
     LoadedGrammar grammar;
     grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/" + standard : request.grammar;

@@ -69,13 +69,6 @@ EspTransform Placing::transform() const {
 
 namespace {
 
-// Also of a folder's name that a shell has completed with a slash.
-std::string lastPart(const std::string& file) {
-    namespace fs = std::filesystem;
-    const fs::path whole = absolutePath(file).lexically_normal();
-    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
-}
-
 // Frozen plants are what they are.
 void plantMore(uint32_t times, std::vector<Seed>& seeds) {
     constexpr uint32_t kApart = 1000;  // numbers of one seed: a scene's count from 1
@@ -109,16 +102,18 @@ bool isDescribed(const std::string& file) {
 
 }  // namespace
 
+std::string lastPart(const std::string& file) {
+    namespace fs = std::filesystem;
+    const fs::path whole = absolutePath(file).lexically_normal();
+    return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
+
 bool mayOpen(const std::string& asked, std::string& error) {
     std::string file = absolutePath(asked).string(), text;
     if (!takeProject(file, error)) return false;
-    if (isNoSurface(file) && !isTown(file) && !isDescribed(file)) {
-        error = noneToOpen(file);
-        return false;
-    }
+    if (!isTown(file) && !isDescribed(file)) return isSurface(file, error);
     SceneFile read;
-    return !isDescribed(file) || isTown(file) ||
-           (readText(file, text, error) && readSceneText(file, text, read, error));
+    return readText(file, text, error) && (isTown(file) || readSceneText(file, text, read, error));
 }
 
 bool openScene(EspContext* context, const Request& asked, Scene& out, std::string& error) {

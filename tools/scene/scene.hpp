@@ -136,7 +136,10 @@ struct Scene {
 // default ivy is taken, fitted to the model's size, with seeds around its foot and a camera that shows everything.
 // False: `error` tells file, place and cause, and the context may hold parts of the scene.
 bool openScene(EspContext* context, const Request& request, Scene& out, std::string& error);
-// Whether it is worth trying: false, with why, of what is plainly none of these. Reads a scene's own file only.
+// Its file's or folder's name, also of one that a shell has completed with a slash.
+std::string lastPart(const std::string& file);
+// Whether it is worth trying: false, with why, of what is plainly none of these. Reads the file itself, not what it
+// names.
 bool mayOpen(const std::string& file, std::string& error);
 
 // What to set of a picture that is drawn in a surface's walk UVs: as espReadLayer gave it, or resampled if it is of

@@ -31,7 +31,7 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
 // A surface, or a town, on its own: with standard grammars, seeds where they have a chance, ground and a camera.
 bool openSurface(EspContext* context, const Request& request, Scene& out, std::string& error);
 bool openTown(EspContext* context, const Request& request, Scene& out, std::string& error);
-bool isNoSurface(const std::string& path);        // a file of quite another kind
-std::string noneToOpen(const std::string& file);  // that none of the above can be made of it
+// Whether it may be a baked surface; else `error` says what it is, or why it can't be read.
+bool isSurface(const std::string& path, std::string& error);
 
 }  // namespace espalier::scene

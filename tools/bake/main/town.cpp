@@ -156,8 +156,9 @@ bool isTown(const std::string& path) {
     if (file.extension() == ".geojson") return true;
     if (file.extension() != ".json") return false;
     Result<std::string> text = readTextFile(path);
-    return text &&
-           text->find("\"asset\"") == std::string::npos;  // which a model in JSON has; its mistakes are told as such
+    const auto has = [&](const char* word) { return text->find(word) != std::string::npos; };
+    // What isn't a model in JSON either is told of as a town.
+    return text && (has("\"buildings\"") || has("\"FeatureCollection\"") || !has("\"asset\""));
 }
 
 Status bakeTown(const TownArguments& arguments) {
