@@ -102,7 +102,7 @@ void addWorn(Mesh& mesh, int place, int steps) {
 // A heap of them: some sunk into the ground, one on two others.
 Mesh rubble(int lod) {
     Mesh mesh;
-    for (int place = 0; place < int(std::size(kHeap)); ++place) addWorn(mesh, place, lod == 0 ? 6 : 2);
+    for (int place = 0; place < int(std::size(kHeap)); ++place) addWorn(mesh, place, lod == 0 ? 4 : 2);
     return mesh;
 }
 // One of them, half sunk.
