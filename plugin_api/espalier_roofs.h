@@ -23,7 +23,8 @@ typedef struct EspTownDef {
     float groundColour[3];   /* linear */
 } EspTownDef;
 ESP_API EspTownDef espDefaultTownDef(void);   /* where it was modelled, on ground */
-/* Replaces the town that there was. It grows in the next espUpdate. */
+/* Replaces the town that there was. It grows in the next espUpdate. ESP_IO_FAILED: roofs.glb, beside the terminal meshes,
+ * can't be read; ESP_INVALID_CONTENT: text has no town. What fails leaves the town that there was. */
 ESP_API EspResult espLoadTown(EspContext* context, const EspTownDef* def);
 ESP_API EspResult espRemoveTown(EspContext* context);
 /* The grammar that the town grows by; its parameters and recompiling are those of any grammar. */

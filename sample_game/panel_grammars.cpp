@@ -90,7 +90,8 @@ void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
 
 bool makesRoofs(const Workspace& work, uint32_t index) {
     EspGrammar town{};
-    return espTownGrammar(work.context.get(), &town) == ESP_OK && town.id == work.scene().grammars[index].id.id;
+    return work.town() && espTownGrammar(work.context.get(), &town) == ESP_OK &&
+           town.id == work.scene().grammars[index].id.id;
 }
 
 // Where a grammar comes from and what grows by it.

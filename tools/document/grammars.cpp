@@ -71,7 +71,7 @@ bool Document::carryOut(const SetParam& action, std::vector<Action>& back, std::
 
 bool Document::townGrows() const {
     EspGrammar grammar{};
-    return espTownGrammar(context_, &grammar) == ESP_OK && grammar.id != 0;
+    return scene_.town && espTownGrammar(context_, &grammar) == ESP_OK && grammar.id != 0;
 }
 
 bool Document::carryOut(const SetText& action, std::vector<Action>& back, std::string& error) {

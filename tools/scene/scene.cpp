@@ -111,9 +111,10 @@ std::string lastPart(const std::string& file) {
 bool mayOpen(const std::string& asked, std::string& error) {
     std::string file = absolutePath(asked).string(), text;
     if (!takeProject(file, error)) return false;
-    if (!isTown(file) && !isDescribed(file)) return isSurface(file, error);
+    const bool town = isTown(file);
+    if (!town && !isDescribed(file)) return isSurface(file, error);
     SceneFile read;
-    return readText(file, text, error) && (isTown(file) || readSceneText(file, text, read, error));
+    return readText(file, text, error) && (town || readSceneText(file, text, read, error));
 }
 
 bool openScene(EspContext* context, const Request& asked, Scene& out, std::string& error) {
