@@ -187,6 +187,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     if (options_.frames) session_.autosaves().forgetRecovery(false);
     work_.start = work_.scene().camera;
     work_.lookFromStart();
+    work_.fitBrush();
     retitle();
     return true;
 }

@@ -19,7 +19,6 @@ namespace {
 using namespace espalier::document;
 
 constexpr float kPixelsBetweenPicks = 3;
-constexpr float kSmallest = .005f, kLargest = 20;
 
 // Ctrl turns painting into erasing, and the other way round.
 std::string modeOf(const Brush& brush, int mods) {
@@ -165,7 +164,7 @@ bool BrushTool::take(Workspace& work, const PointerEvent& event) {
         if (event.kind == Kind::move) {
             const float moved = (at.x - sizingFrom_.x) / work.scale;
             if (sizing_ == Sizing::radius)
-                work.brushRadius() = std::clamp(before_ * std::exp(moved / 150), kSmallest, kLargest);
+                work.brushRadius() = std::clamp(before_ * std::exp(moved / 150), kSmallestBrush, kLargestBrush);
             else
                 work.brush.strength = std::clamp(before_ + moved / 300, .01f, 1.f);
         } else if (event.kind == Kind::press) {

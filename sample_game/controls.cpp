@@ -171,8 +171,8 @@ void Controls::takeToolKey(const KeyEvent& event) {
     const bool paints = work_.tool == Tool::paint;
     if (paints && !brush_.painting() && !brush_.sizing()) {  // a stroke goes on as it began
         float& radius = work_.brushRadius();
-        if (key == GLFW_KEY_LEFT_BRACKET) radius = std::max(radius / 1.15f, .005f);
-        if (key == GLFW_KEY_RIGHT_BRACKET) radius = std::min(radius * 1.15f, 20.f);
+        if (key == GLFW_KEY_LEFT_BRACKET) radius = std::max(radius / 1.15f, kSmallestBrush);
+        if (key == GLFW_KEY_RIGHT_BRACKET) radius = std::min(radius * 1.15f, kLargestBrush);
         const bool colour = isColour(work_.scene(), work_.brush.layer);  // which has no opposite
         if (key == GLFW_KEY_X && !colour) {
             work_.brush.value = 1 - work_.brush.value;

@@ -163,6 +163,41 @@ void showFigures(const Workspace& work, uint32_t validationMessages, bool valida
 
 namespace {
 
+// What the layer's grammar calls some of its values.
+void namedRows(const Workspace& work, const std::string& layer) {
+    const float side = ImGui::GetFontSize();
+    const std::string label = espalier::scene::labelOf(work.context.get(), work.scene(), layer);
+    for (const auto& named : espalier::scene::wordsOf(label).values) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side},
+                                                  faded(viewColour(ESP_VIEW_LAYER, named.value)));
+        ImGui::Dummy({side, side});
+        ImGui::SameLine();
+        ImGui::TextUnformatted(named.name.c_str());
+    }
+}
+
+// The directions that the view of normals has colours for, as pairs of opposites.
+void normalsLegend() {
+    ImGui::TextUnformatted("Which way surfaces face");
+    constexpr struct {
+        const char* name;
+        float normal[3];
+    } kFaces[] = {{"east", {1, 0, 0}},  {"west", {-1, 0, 0}}, {"up", {0, 1, 0}},
+                  {"down", {0, -1, 0}}, {"south", {0, 0, 1}}, {"north", {0, 0, -1}}};
+    const float side = ImGui::GetFontSize();
+    for (const auto& face : kFaces) {
+        const float* n = face.normal;
+        const float rgb[3] = {n[0] * .5f + .5f, n[1] * .5f + .5f, n[2] * .5f + .5f};
+        if ((&face - kFaces) % 2) ImGui::SameLine(6 * side);
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side}, faded(shownColour(rgb)));
+        ImGui::Dummy({side, side});
+        ImGui::SameLine();
+        ImGui::TextUnformatted(face.name);
+    }
+}
+
 // From nothing to as much as the view tells apart, with what it is about above.
 void legendOf(const Workspace& work, EspView view, float most) {
     const float s = work.scale;
@@ -187,6 +222,7 @@ void legendOf(const Workspace& work, EspView view, float most) {
     const std::string last = std::to_string(int(most)) + (layer ? "" : " and more");
     ImGui::SameLine(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(last.c_str()).x);
     ImGui::TextDisabled("%s", last.c_str());
+    if (layer) namedRows(work, work.scene().viewLayer);
     if (limitingStroke(work)) hatchedRow(s);
 }
 
@@ -196,12 +232,15 @@ void showLegend(const Workspace& work) {
     const EspView view = work.scene().look.view;
     float rgb[3], most = 0;
     const bool colours = view == ESP_VIEW_LAYER && isColour(work.scene(), work.scene().viewLayer);
-    if (colours || (view != ESP_VIEW_CHARTS && espViewColour(view, 0, rgb, &most) != ESP_OK)) return;
+    const bool amounts = espViewColour(view, 0, rgb, &most) == ESP_OK;
+    if (colours || (!amounts && view != ESP_VIEW_CHARTS && view != ESP_VIEW_NORMALS)) return;
     const float s = work.scale;
     const ImVec2 corner{work.panelUnits() + 12 * s, work.window.y - ImGui::GetFrameHeight() - 16 * s};
     if (beginOverlay(work, "legend", corner, {0, 1}, 0)) {
         if (view == ESP_VIEW_CHARTS)
             ImGui::TextUnformatted("A colour for each chart\nPale: links lead over its border");
+        else if (view == ESP_VIEW_NORMALS)
+            normalsLegend();
         else
             legendOf(work, view, most);
     }

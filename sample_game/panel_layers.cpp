@@ -2,6 +2,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 
 #include "sample_game/panels.hpp"
@@ -104,8 +105,9 @@ void chosenLayer(Workspace& work, const Layer& layer) {
         ImGui::TextDisabled("%s.", now);
     else if (!changesNothing)
         ImGui::TextDisabled("%s: %s %.2g.", now, layer.painted ? "elsewhere it is" : "all of it is", layer.fill[0]);
-    if (const size_t rest = layer.label.find(": "); rest != std::string::npos && !layer.readers.empty())
-        ImGui::TextDisabled("%s.", layer.label.c_str() + rest + 2);
+    // Values have names beside the brush.
+    const std::string note = layer.readers.empty() ? "" : espalier::scene::wordsOf(layer.label).note;
+    if (!note.empty()) ImGui::TextDisabled("%s.", (char(std::toupper(note[0])) + note.substr(1)).c_str());
     if (layer.town) ImGui::TextDisabled("Drag over the roofs: paint falls straight down.");
     ImGui::PopTextWrapPos();
 }

@@ -40,7 +40,11 @@ std::string strokeOf(const Workspace& work, bool control) {
         mode == "paint" ? brush.value : espalier::scene::fillOf(work.context.get(), work.scene(), brush.layer);
     char text[16];
     std::snprintf(text, sizeof text, "%.2f", double(to));
-    return mode + " " + brush.layer + (mode == "paint" ? ": " : " back to ") + text;
+    std::string name;
+    for (const auto& named :
+         espalier::scene::wordsOf(espalier::scene::labelOf(work.context.get(), work.scene(), brush.layer)).values)
+        if (named.value == to) name = " (" + named.name + ")";
+    return mode + " " + brush.layer + (mode == "paint" ? ": " : " back to ") + text + name;
 }
 
 Hint hintOf(const Workspace& work, bool caught, bool flying) {

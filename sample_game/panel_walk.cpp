@@ -68,6 +68,34 @@ void plantButtons(Workspace& work, const espalier::scene::Seed* seed) {
 
 }  // namespace
 
+const char* endingOf(EspBranchEnd end) {
+    switch (end) {
+        case ESP_END_BY_RULES:
+            return "Ends as its rules say";
+        case ESP_END_REFUSED:
+            return "Ends: its condition holds nowhere ahead";
+        case ESP_END_NO_GROUND:
+            return "Ends: no ground goes on ahead";
+        case ESP_END_BY_LIMIT:
+            break;
+    }
+    return "Ends at a limit of the scene";
+}
+
+const char* endingTip(EspBranchEnd end) {
+    switch (end) {
+        case ESP_END_BY_RULES:
+            return "It is as long as the grammar and its sliders make it";
+        case ESP_END_REFUSED:
+            return "What the grammar asks of a step: what is painted there (B), how steep it is, how far it may be ...";
+        case ESP_END_NO_GROUND:
+            return "The surface ends here, or what is ahead is buried or bare: key 2 shows the ground in colours";
+        case ESP_END_BY_LIMIT:
+            break;
+    }
+    return "There may be no more of the scene's plants, or no more branches on branches";
+}
+
 // All rows are always there, so that nothing moves away from under the mouse.
 void branchPanel(Workspace& work) {
     const bool picked = work.branch && !work.path.empty();
@@ -81,8 +109,11 @@ void branchPanel(Workspace& work) {
                       "Branches between it and its seed, steps of its walk,\njumps in the atlas. Its key: %016llx",
                       static_cast<unsigned long long>(*work.branch));
         toolTip(tip);
+        ImGui::TextUnformatted(endingOf(info.end));
+        toolTip(endingTip(info.end));
     } else {
         ImGui::TextDisabled("Click a branch");
+        ImGui::TextUnformatted("");
     }
     branchButtons(work, picked && info.depth > 0);
     plantButtons(work, work.branchSeed());

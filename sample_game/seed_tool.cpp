@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <utility>
 
@@ -15,8 +16,9 @@ namespace {
 using namespace espalier::document;
 using espalier::scene::Seed;
 
-constexpr float kReach = 11;   // pixels at 96 dpi around a seed's marker
-constexpr float kArrow = .3f;  // metres
+constexpr float kReach = 11;        // pixels at 96 dpi around a seed's marker
+constexpr float kArrow = .3f;       // metres
+constexpr float kAlongView = .97f;  // cosine between an arrow and the view
 
 // The ground there, unless that is beneath a panel or outside the window.
 std::optional<EspHit> seen(const Workspace& work, glm::vec2 at) {
@@ -281,15 +283,26 @@ void SeedTool::selectAll(Workspace& work) {
 void SeedTool::draw(const Workspace& work) const {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float s = work.scale;
+    // Along the view an arrow is a point: a ring stands for its head, a ring with a cross for its feathers.
+    const auto ring = [&](glm::vec2 at, bool away, ImU32 colour, float width) {
+        const float r = 9 * s, c = r * .7f;
+        list.AddCircle({at.x, at.y}, r, IM_COL32(0, 0, 0, 150), 0, width + 2 * s);
+        list.AddCircle({at.x, at.y}, r, colour, 0, width);
+        if (!away) return;
+        list.AddLine({at.x - c, at.y - c}, {at.x + c, at.y + c}, colour, width);
+        list.AddLine({at.x - c, at.y + c}, {at.x + c, at.y - c}, colour, width);
+    };
     const auto arrow = [&](glm::vec3 from, glm::vec3 direction, ImU32 colour, float width) {
         const auto a = work.place(from), b = work.place(from + kArrow * direction);
         if (!a || !b) return;
+        const float along = glm::dot(direction, glm::normalize(from - work.camera.eye()));
+        if (std::abs(along) > kAlongView) return ring(*a, along > 0, colour, width);
         list.AddLine({a->x, a->y}, {b->x, b->y}, IM_COL32(0, 0, 0, 150), width + 2 * s);
         list.AddLine({a->x, a->y}, {b->x, b->y}, colour, width);
-        const glm::vec2 along = *b - *a;
-        const float length = glm::length(along);
+        const glm::vec2 way = *b - *a;
+        const float length = glm::length(way);
         if (length < 4) return;
-        const glm::vec2 d = along / length * 7.f * s, side{-d.y * .6f, d.x * .6f};
+        const glm::vec2 d = way / length * 7.f * s, side{-d.y * .6f, d.x * .6f};
         list.AddTriangleFilled({b->x + d.x * .4f, b->y + d.y * .4f},
                                {b->x - d.x * .6f + side.x, b->y - d.y * .6f + side.y},
                                {b->x - d.x * .6f - side.x, b->y - d.y * .6f - side.y}, colour);

@@ -159,8 +159,8 @@ void readLayout(Layout& layout, Brush& brush, std::string& error) {
     layout.sizeOfAll = std::clamp(layout.sizeOfAll, .5f, 3.f);
     layout.rowStep = std::clamp(layout.rowStep, kLeastRowStep, kMostRowStep);
     for (uint32_t* side : {&layout.windowWidth, &layout.windowHeight}) *side = std::min(*side, 16384u);
-    brush.radius = std::clamp(record.brush.radius, .005f, 20.f);
-    brush.townRadius = std::clamp(record.brush.townRadius, .005f, 20.f);
+    brush.radius = std::clamp(record.brush.radius, kSmallestBrush, kLargestBrush);
+    brush.townRadius = std::clamp(record.brush.townRadius, kSmallestBrush, kLargestBrush);
     brush.strength = std::clamp(record.brush.strength, .01f, 1.f);
     brush.hardness = std::clamp(record.brush.hardness, 0.f, 1.f);
     brush.spacing = std::clamp(record.brush.spacing, .05f, 1.f);

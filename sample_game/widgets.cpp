@@ -124,6 +124,22 @@ bool typeInto(const ImRect& place, const char* id, float& value, float low, floa
     return std::exchange(value, typed) != typed;
 }
 
+// Of its words, the widest they may be.
+float tipWidth() {
+    return std::min(ImGui::GetFontSize() * 45, ImGui::GetIO().DisplaySize.x - 2 * ImGui::GetStyle().WindowPadding.x);
+}
+
+// The next tip covers nothing of the window that its widget is in, if there is room beside that.
+void tipBeside(const ImRect& window, const std::string& text) {
+    const ImVec2 pad = ImGui::GetStyle().WindowPadding, all = ImGui::GetIO().DisplaySize;
+    const ImVec2 words = ImGui::CalcTextSize(text.c_str(), nullptr, false, tipWidth());
+    const ImVec2 size{words.x + 2 * pad.x, words.y + 2 * pad.y};
+    const float right = window.Max.x + pad.x, left = window.Min.x - pad.x - size.x;
+    if (right + size.x > all.x && left < 0) return;
+    const float y = std::clamp(ImGui::GetItemRectMin().y, 0.f, std::max(0.f, all.y - size.y));
+    ImGui::SetNextWindowPos({right + size.x <= all.x ? right : left, y});
+}
+
 // From the low end to where the value is, below a slider that is about to be laid out there.
 void drawBar(const ImRect& place, float share) {
     const float rounding = ImGui::GetStyle().FrameRounding;
@@ -253,9 +269,8 @@ bool toolTipWaits() {
 }
 
 void tip(const char* text) {
-    const float room = ImGui::GetIO().DisplaySize.x - 2 * ImGui::GetStyle().WindowPadding.x;
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(std::min(ImGui::GetFontSize() * 45, room));
+    ImGui::PushTextWrapPos(tipWidth());
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
@@ -264,7 +279,9 @@ void tip(const char* text) {
 void toolTip(const char* text) {
     if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsItemActive() || toolTipWaits()) return;
     const bool list = cut().list != 0 && cut().list == ImGui::GetItemID();
-    tip(list ? (cut().whole + "\n" + text).c_str() : text);
+    const std::string words = list ? cut().whole + "\n" + text : text;
+    tipBeside(ImGui::GetCurrentWindow()->RootWindow->Rect(), words);
+    tip(words.c_str());
 }
 
 void sameLineIfRoom(float width) {

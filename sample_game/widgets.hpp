@@ -53,7 +53,7 @@ void hint(const char* text);   // what keeps the user from seeing anything happe
 void aside(const char* text);  // fainter, over as many lines as it takes
 // Over the picture, beside a place of the window, legible on anything.
 void noteAt(const Workspace& work, glm::vec2 at, const char* text);
-// Shown when the mouse rests on the last widget, a disabled one too.
+// Shown when the mouse rests on the last widget, a disabled one too, beside the window that this is in.
 void toolTip(const char* text);
 void tip(const char* text);  // at the mouse, now; no wider than the window
 // Whether the pointer rests on something that will show its tip in a moment.

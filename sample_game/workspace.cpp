@@ -61,6 +61,16 @@ float Workspace::reach() const {
     return glm::distance(low, high);
 }
 
+void Workspace::fitBrush() {
+    constexpr float kLeast = .002f, kMost = .15f;  // of what is painted
+    const auto fit = [](float& radius, float size) {
+        if (size > 0)
+            radius = std::clamp(std::clamp(radius, kLeast * size, kMost * size), kSmallestBrush, kLargestBrush);
+    };
+    fit(brush.radius, reach());
+    if (const auto of = town()) fit(brush.townRadius, of->layerSide);
+}
+
 void Workspace::lookFrom(const EspCamera& from) {
     camera.set(from, reach());
     redraw = true;
@@ -358,14 +368,15 @@ void Workspace::noteGrown(bool plants) {
     if (branch && (plants || edited)) readPath();
 }
 
-bool Workspace::barren(uint32_t key) {
+std::optional<EspBranchEnd> Workspace::barren(uint32_t key) {
     const auto* seed = document->seed(key);
-    if (!seed) return false;
-    if (asked_.key == key && asked_.expansions == stats.expansions) return asked_.barren;
+    if (!seed) return {};
+    if (asked_.key == key && asked_.expansions == stats.expansions) return asked_.end;
     EspPlantInfo plant{};
+    asked_ = {key, stats.expansions, {}};
     const bool known = espPlantInfo(context.get(), seed->planted, &plant) == ESP_OK;
-    asked_ = {key, stats.expansions, known && plant.nodes < 2};  // the first stands where the seed does
-    return asked_.barren;
+    if (known && plant.nodes < 2) asked_.end = plant.end;  // the first stands where the seed does
+    return asked_.end;
 }
 
 std::optional<glm::vec2> Workspace::place(glm::vec3 point) const {

@@ -31,8 +31,9 @@ struct Brush {
     bool frontOnly = false;
 };
 
-constexpr float kLeastPanel = 200, kMostPanel = 800;     // its width at 96 dpi
-constexpr float kLeastRowStep = .02f, kMostRowStep = 5;  // metres
+constexpr float kLeastPanel = 200, kMostPanel = 800;         // its width at 96 dpi
+constexpr float kSmallestBrush = .005f, kLargestBrush = 20;  // radius, metres
+constexpr float kLeastRowStep = .02f, kMostRowStep = 5;      // metres
 
 // What is remembered from one run to the next, besides the places of movable windows.
 struct Layout {
@@ -147,6 +148,7 @@ struct Workspace {
     // A layer that lies over the town, seen from above, and over no surface.
     bool townLayer(const std::string& name) const;
     void chooseLayer(const std::string& name);  // for the brush
+    void fitBrush();                            // one that was used in a scene of quite another size
     void showLayer(bool seen);                  // the brush's, on the model
     void followLayers();  // a grammar's text may have lost the one in hand, or that is seen, and gained others
     float& brushRadius() { return townLayer(brush.layer) ? brush.townRadius : brush.radius; }
@@ -182,8 +184,8 @@ struct Workspace {
     // Whenever the document has grown, though it be to the same plants: their seeds may have been planted anew.
     void noteGrown(bool plants);
     std::vector<EspPathSample> pathOf(uint64_t of) const;
-    // A seed that the last growth got no further than. Reads growth back, once after each.
-    bool barren(uint32_t key);
+    // Why the last growth got no further than the seed; nothing: it did. Reads growth back, once after each.
+    std::optional<EspBranchEnd> barren(uint32_t key);
     void forgetBarren() { asked_ = {}; }  // keys are other seeds' from now on
     // False: `error` says why.
     bool readStats();
@@ -200,7 +202,7 @@ struct Workspace {
     uint32_t pointedAt_ = 0;      // and after how many expansions
     struct {
         uint32_t key = 0, expansions = 0;
-        bool barren = false;
+        std::optional<EspBranchEnd> end;
     } asked_;  // by barren()
 };
 

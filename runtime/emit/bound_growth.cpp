@@ -99,9 +99,8 @@ Result<BoundGrowth::Held> BoundGrowth::makeHeld(const GrowthView& growth, uint32
 
 // For the items of `held`, with room for cells that outgrow theirs.
 Status BoundGrowth::makeOrder(Buffer& order, const Held& held) {
-    const uint64_t bytes = (held.numbers() + held.numbers() / 2 + 32 * kAllCells) * 4;
-    if (order && order.size() >= bytes) return Done{};
-    return assign(order, Buffer::create(*device_, "emit order", bytes));
+    const uint64_t numbers = held.numbers() + held.numbers() / 2 + 32 * kAllCells;
+    return makeAtLeast(*device_, order, "emit order", numbers * 4);
 }
 
 bool BoundGrowth::trim(const GrowthView& growth) {

@@ -24,10 +24,7 @@ inline bool sharesMemory(const Device& device, const Buffer& buffer) {
 inline Status makeRoom(Device& device, Buffer& buffer, std::string_view name, uint64_t bytes,
                        TexelView* texels = nullptr) {
     if (texels) return makeTexels(device, name, bytes, VK_FORMAT_R32G32B32A32_UINT, buffer, *texels);
-    Result<Buffer> made = Buffer::create(device, name, bytes);
-    if (!made) return made.failure();
-    buffer = std::move(*made);
-    return Done{};
+    return assign(buffer, Buffer::create(device, name, bytes));
 }
 
 }  // namespace espalier

@@ -13,9 +13,8 @@ Status GpuGrowth::setUp() {
 }
 
 Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
-    if (buffer && buffer.size() >= bytes) return Done{};
-    buffer = {};
-    return assign(buffer, Buffer::create(device_, name, bytes, use));
+    if (buffer.size() < bytes) buffer = {};  // before the new one, for which there may be no room beside it
+    return makeAtLeast(device_, buffer, name, bytes, use);
 }
 
 // Room for the chains of leaves on nodes. What gets new room has to be chained anew.

@@ -74,6 +74,11 @@ Result<TexelView> TexelView::create(Device& device, const Buffer& buffer, VkForm
     return view;
 }
 
+Status makeAtLeast(Device& device, Buffer& buffer, std::string_view name, uint64_t sizeBytes, BufferUse use) {
+    if (buffer && buffer.size() >= sizeBytes) return Done{};
+    return assign(buffer, Buffer::create(device, name, sizeBytes, use));
+}
+
 Status makeTexels(Device& device, std::string_view name, uint64_t sizeBytes, VkFormat format, Buffer& buffer,
                   TexelView& texels) {
     Result<Buffer> made = Buffer::create(device, name, sizeBytes);

@@ -59,6 +59,10 @@ class TexelView {
 Status makeTexels(Device& device, std::string_view name, uint64_t sizeBytes, VkFormat format, Buffer& buffer,
                   TexelView& texels);
 
+// Has so many bytes, or is made anew, without what was in it. On failure it stays as it was.
+Status makeAtLeast(Device& device, Buffer& buffer, std::string_view name, uint64_t sizeBytes,
+                   BufferUse use = BufferUse::device);
+
 // A device buffer with these bytes in it, ready when the call returns. For loading; inside a frame use
 // Commands::upload.
 Result<Buffer> makeBuffer(Device& device, std::string_view name, std::span<const std::byte> bytes);

@@ -75,7 +75,7 @@ class Parser {
                             (at(TokenKind::end) ? ", found the end of the text" : ", found the end of the line"));
         throw Stop{};
     }
-    void expect(std::string_view symbol, const char* where) {
+    void expect(std::string_view symbol, const std::string& where) {
         if (!accept(symbol)) failMissing("'" + std::string(symbol) + "' " + where);
     }
     std::string expectName(const char* what) {
@@ -255,7 +255,7 @@ class Parser {
         Element e;
         e.place = now().place;
         e.name = expectName("a successor");
-        if (accept("(")) e.args = arguments();
+        if (accept("(")) e.args = arguments(e.name);
         if (accept("{")) {
             e.hasItems = true;
             while (!at("}")) {
@@ -264,18 +264,18 @@ class Parser {
                 if (e.items.size() > 64) fail("more than 64 successors");
                 if (!accept(",")) break;
             }
-            expect("}", "behind the successors");
+            expect("}", "behind the successors of " + e.name);
         }
         return e;
     }
-    std::vector<ExprId> arguments() {
+    std::vector<ExprId> arguments(const std::string& of) {
         std::vector<ExprId> all;
         while (!at(")")) {
             all.push_back(expression());
             if (all.size() > 16) fail("more than 16 arguments");
             if (!accept(",")) break;
         }
-        expect(")", "behind the arguments");
+        expect(")", "behind the arguments of " + of);
         return all;
     }
 
@@ -373,7 +373,7 @@ class Parser {
         }
         if (accept("(")) {
             e.kind = ExprKind::call;
-            e.kids = arguments();
+            e.kids = arguments(e.text);
         }
         return add(std::move(e));
     }

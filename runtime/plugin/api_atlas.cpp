@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
 
 namespace espalier {
 namespace {

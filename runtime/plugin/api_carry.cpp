@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
 #include "runtime/plugin/layer_resample.hpp"
 #include "runtime/surface/carry.hpp"
 

@@ -7,6 +7,7 @@
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/features.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
 
 namespace espalier {
 namespace {

@@ -5,7 +5,11 @@
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
+#include "runtime/plugin/painting.hpp"
 #include "runtime/plugin/shown_layers.hpp"
+#include "runtime/plugin/town_growth.hpp"
 #include "runtime/render/host_formats.hpp"
 #include "shaders/render/heat.h"
 
@@ -14,14 +18,10 @@ namespace {
 
 constexpr uint32_t kMostCharts = 65535;
 
-glm::vec3 vec(const float v[3]) {
-    return {v[0], v[1], v[2]};
-}
-
-bool finite(const EspLook& look) {
+bool finiteLook(const EspLook& look) {
     for (const float* v :
          {look.sunDirection, look.sunColour, look.skyColour, look.groundColour, look.background, look.horizon})
-        if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2])) return false;
+        if (!finite(v)) return false;
     for (float v : {look.exposure, look.viewOpacity, look.lodPixels, look.leafPixels, look.groundLevel})
         if (!std::isfinite(v)) return false;
     return true;
@@ -33,9 +33,9 @@ EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
     if (def.width < 1 || def.height < 1 || def.width > kMaxFrameSide || def.height > kMaxFrameSide)
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a frame is 1 to 16384 pixels wide and high");
     for (const float* v : {def.camera.eye, def.camera.target, def.camera.up})
-        if (!std::isfinite(v[0]) || !std::isfinite(v[1]) || !std::isfinite(v[2]))
-            return fail(context, ESP_INVALID_ARGUMENT, "espDraw: the camera is not finite");
-    if (!finite(def.look)) return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a number of the look is not finite");
+        if (!finite(v)) return fail(context, ESP_INVALID_ARGUMENT, "espDraw: the camera is not finite");
+    if (!finiteLook(def.look))
+        return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a number of the look is not finite");
     if (!(std::abs(def.camera.shift[0]) < 100) || !(std::abs(def.camera.shift[1]) < 100) ||
         !(def.camera.fovY >= 0.001f && def.camera.fovY <= 3.1f) || !(def.camera.nearPlane > 0) ||
         vec(def.camera.eye) == vec(def.camera.target))

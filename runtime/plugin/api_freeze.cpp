@@ -3,6 +3,10 @@
 #include <cstring>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/seeds.hpp"
+#include "runtime/plugin/surface_contacts.hpp"
+#include "runtime/plugin/surface_point.hpp"
 
 namespace espalier {
 namespace {

@@ -7,6 +7,10 @@
 #include "runtime/core/file.hpp"
 #include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/painting.hpp"
+#include "runtime/plugin/seeds.hpp"
+#include "runtime/plugin/town_growth.hpp"
 
 namespace espalier {
 namespace {

@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
 #include "runtime/plugin/house_wish.hpp"
 #include "runtime/roof/shapes.hpp"
 

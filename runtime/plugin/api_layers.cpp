@@ -3,6 +3,8 @@
 #include <bit>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/painting.hpp"
 
 namespace espalier {
 namespace {

@@ -4,6 +4,9 @@
 #include <numeric>
 
 #include "runtime/core/undo.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
+#include "runtime/plugin/painting.hpp"
 #include "runtime/plugin/strokes.hpp"
 
 namespace espalier {
@@ -14,9 +17,7 @@ constexpr float kFarthestDab = 1e12f;    // metres: nothing lies so far away, an
 constexpr float kMostReach = 16;         // texels: what a texel tells of borders ends a little farther out
 
 bool usable(const EspDab& dab) {
-    for (int i = 0; i < 3; ++i)
-        if (!std::isfinite(dab.position[i]) || !std::isfinite(dab.normal[i])) return false;
-    return dab.pressure >= 0 && dab.pressure <= 1;
+    return finite(dab.position) && finite(dab.normal) && dab.pressure >= 0 && dab.pressure <= 1;
 }
 
 const BlockBounds& boundsOf(PlacedSurface& surface) {
@@ -149,9 +150,9 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
         if (!usable(dab))
             return fail(&context, ESP_INVALID_ARGUMENT,
                         "espStrokeDabs: a dab is not finite, or its pressure not within 0 to 1");
-        const glm::vec3 at(dab.position[0], dab.position[1], dab.position[2]);
+        const glm::vec3 at = vec(dab.position);
         if (glm::length(at / kFarthestDab) > 1) continue;
-        records.push_back({at, dab.pressure, {dab.normal[0], dab.normal[1], dab.normal[2]}, 0});
+        records.push_back({at, dab.pressure, vec(dab.normal), 0});
     }
     // What is for roofs alone makes no layers on surfaces that happen to be near.
     const bool roofsOnly = paintTown(context, stroke, records) && !plantsRead(context, stroke.layer);

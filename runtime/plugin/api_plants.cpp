@@ -3,6 +3,10 @@
 #include <cmath>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
+#include "runtime/plugin/seeds.hpp"
+#include "runtime/plugin/surface_point.hpp"
 
 namespace espalier {
 
@@ -42,7 +46,7 @@ EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, 
     out->branch = plants->keyOf(hit->branch);
     out->depth = plants->depthOf(hit->branch);
     out->distance = hit->distance;
-    for (int i = 0; i < 3; ++i) out->position[i] = hit->position[i];
+    put(out->position, hit->position);
     return ESP_OK;
 }
 
@@ -52,7 +56,8 @@ EspResult branchInfo(EspContext& context, uint64_t branch, EspBranchInfo* out) {
     const auto index = plants->findBranch(branch);
     if (!index) return fail(&context, ESP_INVALID_ARGUMENT, "espBranchInfo: no such branch has grown");
     const uint32_t parent = plants->parentOf(*index).value_or(*index);
-    *out = {seedOf(context, *plants, *index), plants->keyOf(parent), plants->depthOf(*index)};
+    *out = {seedOf(context, *plants, *index), plants->keyOf(parent), plants->depthOf(*index),
+            EspBranchEnd(plants->endOf(*index))};
     return ESP_OK;
 }
 
@@ -67,7 +72,7 @@ EspResult branchPath(EspContext& context, uint64_t branch, EspPathSample* sample
     for (uint32_t i = 0; i < std::min(room, *count); ++i) {
         const Node& node = plants->node(nodes[i]);
         EspPathSample sample{};
-        for (int k = 0; k < 3; ++k) sample.position[k] = plants->positionOf(nodes[i])[k];
+        put(sample.position, plants->positionOf(nodes[i]));
         const glm::vec2 uv = unpackUv(node.uv);
         sample.uv[0] = uv.x;
         sample.uv[1] = uv.y;
@@ -87,10 +92,9 @@ EspResult plantInfo(EspContext& context, uint32_t id, const PlantedSeed& seed, E
         if (context.grownSeeds[i] == id) extent = plants->extentOf(i);
     if (extent.nodes == 0) extent.low = extent.high = seed.position;
     out->nodes = extent.nodes;
-    for (int i = 0; i < 3; ++i) {
-        out->boundsMin[i] = extent.low[i];
-        out->boundsMax[i] = extent.high[i];
-    }
+    out->end = EspBranchEnd(extent.end);
+    put(out->boundsMin, extent.low);
+    put(out->boundsMax, extent.high);
     return ESP_OK;
 }
 
@@ -103,11 +107,9 @@ extern "C" {
 
 EspResult espPickPlant(EspContext* context, const float origin[3], const float direction[3], EspPlantHit* out) {
     return guarded(context, [&] {
-        bool usable = origin && direction && out;
-        for (int i = 0; usable && i < 3; ++i) usable = std::isfinite(origin[i]) && std::isfinite(direction[i]);
-        if (!usable || (direction[0] == 0 && direction[1] == 0 && direction[2] == 0))
+        if (!out || !isRay(origin, direction))
             return fail(context, ESP_INVALID_ARGUMENT, "espPickPlant: null pointer, or a ray that isn't one");
-        return pickPlant(*context, {origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]}, out);
+        return pickPlant(*context, vec(origin), vec(direction), out);
     });
 }
 

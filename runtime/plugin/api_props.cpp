@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
 
 namespace espalier {
 namespace {
@@ -21,10 +23,7 @@ EspResult findPlaces(const EspContext& context, const TerminalData& models, cons
             !(place.scale > 0))
             return fail(&context, ESP_INVALID_ARGUMENT,
                         "espSetProps: place " + std::to_string(i) + " of '" + name + "' is out of range");
-        out.push_back({uint32_t(found - models.variants.begin()),
-                       {place.position[0], place.position[1], place.position[2]},
-                       place.turn,
-                       place.scale});
+        out.push_back({uint32_t(found - models.variants.begin()), vec(place.position), place.turn, place.scale});
     }
     return ESP_OK;
 }

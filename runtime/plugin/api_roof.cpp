@@ -6,6 +6,9 @@
 
 #include "runtime/emit/terminals.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
+#include "runtime/plugin/town_growth.hpp"
 #include "runtime/roof/shapes.hpp"
 #include "runtime/roof_growth/house_tables.hpp"
 
@@ -56,7 +59,7 @@ GroundLook groundUnder(const RoofStructure& structure, const EspTownDef& def) {
     ground.height = structure.houses.front().baseHeight;
     for (const RoofHouse& house : structure.houses) ground.height = std::min(ground.height, house.baseHeight);
     ground.height -= 0.02f;
-    ground.colour = {def.groundColour[0], def.groundColour[1], def.groundColour[2]};
+    ground.colour = vec(def.groundColour);
     return ground;
 }
 

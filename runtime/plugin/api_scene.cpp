@@ -3,7 +3,10 @@
 
 #include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
 #include "runtime/plugin/layer_resample.hpp"
+#include "runtime/plugin/painting.hpp"
 
 namespace espalier {
 namespace {

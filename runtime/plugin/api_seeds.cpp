@@ -5,22 +5,16 @@
 
 #include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
+#include "runtime/plugin/seeds.hpp"
+#include "runtime/plugin/surface_point.hpp"
 #include "shaders/shared/random.h"
 
 namespace espalier {
 namespace {
 
 constexpr uint32_t kMaxSeeds = 1u << 20;
-
-glm::vec3 vec(const float v[3]) {
-    return {v[0], v[1], v[2]};
-}
-void put(float to[3], glm::vec3 from) {
-    for (int i = 0; i < 3; ++i) to[i] = from[i];
-}
-bool finite(const float v[3]) {
-    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-}
 
 // The unit tangent nearest to `wanted` on a plane; any where there is none.
 glm::vec3 laidInto(glm::vec3 wanted, glm::vec3 normal) {

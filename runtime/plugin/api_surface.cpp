@@ -3,6 +3,12 @@
 
 #include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
+#include "runtime/plugin/painting.hpp"
+#include "runtime/plugin/seeds.hpp"
+#include "runtime/plugin/surface_contacts.hpp"
+#include "runtime/plugin/surface_point.hpp"
 
 namespace espalier {
 namespace {
@@ -46,10 +52,8 @@ EspSurfaceInfo describe(const SurfaceData& data, const glm::mat4& toWorld, uint3
         low = glm::min(low, world);
         high = glm::max(high, world);
     }
-    for (int i = 0; i < 3; ++i) {
-        info.boundsMin[i] = low[i];
-        info.boundsMax[i] = high[i];
-    }
+    put(info.boundsMin, low);
+    put(info.boundsMax, high);
     info.triangles = triangles;
     info.charts = uint32_t(data.charts.size());
     info.levels = levels;

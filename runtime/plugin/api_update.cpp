@@ -4,6 +4,12 @@
 #include <map>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
+#include "runtime/plugin/seeds.hpp"
+#include "runtime/plugin/surface_contacts.hpp"
+#include "runtime/plugin/surface_point.hpp"
+#include "runtime/plugin/town_growth.hpp"
 
 namespace espalier {
 namespace {

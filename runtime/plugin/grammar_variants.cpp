@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/seeds.hpp"
 
 namespace espalier {
 namespace {

@@ -26,6 +26,12 @@ Approach approach(glm::vec3 origin, glm::vec3 direction, glm::vec3 a, glm::vec3 
     return {along, glm::length(oa + s * ab - along * direction)};
 }
 
+BranchEnd endBy(uint32_t marks) {
+    if (marks & kChunkStopped) return BranchEnd::byLimit;
+    if (!(marks & kChunkDeadEnd)) return BranchEnd::byRules;
+    return marks & kChunkBeyond ? BranchEnd::refused : BranchEnd::noGround;
+}
+
 }  // namespace
 
 Plants::Plants(GrowthRecords records, std::span<const glm::mat4> toWorld) : records_(std::move(records)) {
@@ -44,10 +50,27 @@ Plants::Plants(GrowthRecords records, std::span<const glm::mat4> toWorld) : reco
         const uint32_t seed = seedOf(b);
         if (seed >= extents_.size()) extents_.resize(seed + 1);
         extents_[seed].nodes += uint32_t(nodes.size()) - (joined ? 1 : 0);
+        if (!joined) extents_[seed].end = endOf(b);
         for (uint32_t node : nodes) {
             extents_[seed].low = glm::min(extents_[seed].low, positions_[node]);
             extents_[seed].high = glm::max(extents_[seed].high, positions_[node]);
         }
+    }
+    noteBare();
+}
+
+BranchEnd Plants::endOf(uint32_t branch) const {
+    const Chunk* last = &firstChunk(branch);
+    while (last->next != kNoIndex) last = &records_.chunks[last->next];
+    return endBy(last->marks);
+}
+
+// Seeds whose only chunk is without nodes: they have found no ground, or are pruned.
+void Plants::noteBare() {
+    for (const Chunk& chunk : records_.chunks) {
+        if (chunk.marks == 0 || chunk.parent != kNoIndex || chunk.branch != kNoIndex) continue;
+        if (chunk.firstNode >= extents_.size()) extents_.resize(chunk.firstNode + 1);
+        extents_[chunk.firstNode].end = endBy(chunk.marks);
     }
 }
 

@@ -5,6 +5,9 @@
 #include <cstring>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/given.hpp"
+#include "runtime/plugin/surface_contacts.hpp"
+#include "runtime/plugin/surface_point.hpp"
 
 namespace espalier {
 namespace {
@@ -14,8 +17,8 @@ using Stand = SurfacePair::Stand;
 Box boxOf(const PlacedSurface& surface) {
     Box box;
     const auto& [low, high] = std::tie(surface.info.boundsMin, surface.info.boundsMax);
-    box.add({low[0], low[1], low[2]});
-    box.add({high[0], high[1], high[2]});
+    box.add(vec(low));
+    box.add(vec(high));
     return box;
 }
 

@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
+#include "runtime/plugin/surface_point.hpp"
 
 namespace espalier {
 namespace {
@@ -120,16 +123,10 @@ using namespace espalier;
 
 namespace {
 
-bool finite(const float v[3]) {
-    return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-}
-
 void fill(const SurfacePoint& point, EspHit* out) {
     out->surface.id = point.surface;
-    for (int i = 0; i < 3; ++i) {
-        out->position[i] = point.position[i];
-        out->normal[i] = point.normal[i];
-    }
+    put(out->position, point.position);
+    put(out->normal, point.normal);
     out->uv[0] = point.uv.x;
     out->uv[1] = point.uv.y;
     out->chart = point.chart;
@@ -142,11 +139,9 @@ extern "C" {
 
 EspResult espPick(const EspContext* context, const float origin[3], const float direction[3], EspHit* out) {
     return guarded(context, [&] {
-        if (!origin || !direction || !out || !finite(origin) || !finite(direction) ||
-            (direction[0] == 0 && direction[1] == 0 && direction[2] == 0))
+        if (!out || !isRay(origin, direction))
             return fail(context, ESP_INVALID_ARGUMENT, "espPick: null pointer, or a ray that isn't one");
-        const auto point = pickSurfaces(*context, {origin[0], origin[1], origin[2]},
-                                        unitOf({direction[0], direction[1], direction[2]}));
+        const auto point = pickSurfaces(*context, vec(origin), unitOf(vec(direction)));
         // Not logged: a ray that meets nothing is an answer.
         if (!point) return ESP_INVALID_ARGUMENT;
         fill(*point, out);
@@ -158,7 +153,7 @@ EspResult espNearest(const EspContext* context, const float point[3], EspHit* ou
     return guarded(context, [&] {
         if (!point || !out || !finite(point))
             return fail(context, ESP_INVALID_ARGUMENT, "espNearest: null pointer, or a point that isn't finite");
-        const auto found = nearestOnSurfaces(*context, {point[0], point[1], point[2]});
+        const auto found = nearestOnSurfaces(*context, vec(point));
         if (!found) return fail(context, ESP_INVALID_ARGUMENT, std::string("espNearest: ") + whyNoneNear(*context));
         fill(*found, out);
         return ESP_OK;

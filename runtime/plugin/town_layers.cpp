@@ -2,7 +2,10 @@
 #include <algorithm>
 
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/painting.hpp"
 #include "runtime/plugin/shown_layers.hpp"
+#include "runtime/plugin/town_growth.hpp"
 
 namespace espalier {
 namespace {

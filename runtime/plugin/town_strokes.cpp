@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "runtime/core/undo.hpp"
+#include "runtime/plugin/errors.hpp"
 #include "runtime/plugin/layer_resample.hpp"
 #include "runtime/plugin/strokes.hpp"
+#include "runtime/plugin/town_growth.hpp"
 
 namespace espalier {
 namespace {

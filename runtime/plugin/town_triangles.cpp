@@ -3,6 +3,8 @@
 
 #include "runtime/emit/roof_triangles.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/town_growth.hpp"
 
 namespace espalier {
 namespace {

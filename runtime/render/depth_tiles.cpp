@@ -19,11 +19,7 @@ Result<DepthTiles> DepthTiles::create(Device& device, uint32_t samples) {
 Status DepthTiles::find(Commands& commands, Image& depths, const Sampler& sampler, uint64_t models, EmitView& view) {
     Picture& to = *std::ranges::min_element(pictures_, {}, &Picture::serial);
     const uint32_t count = tilesOf(view);
-    if (!to.buffer || to.buffer.size() < count * sizeof(float)) {
-        Result<Buffer> made = Buffer::create(commands.device(), "depth tiles", count * sizeof(float));
-        if (!made) return made.failure();
-        to.buffer = std::move(*made);
-    }
+    if (Status s = makeAtLeast(commands.device(), to.buffer, "depth tiles", count * sizeof(float)); !s) return s;
     view.tiles = addressOf<FloatBuf>(to.buffer);
     to.view = view;
     to.serial = commands.serial();

@@ -107,8 +107,7 @@ Status RoofDraw::reserve(const RoofView& roofs) {
                 {rectangles_, "far roofs", 2ull * roofs.gridCount, kMostRectangles, sizeof(RoofTile)}};
     for (const auto& r : rows) {
         const uint64_t bytes = std::min<uint64_t>(std::max<uint64_t>(r.count + r.count / 4, 1024), r.most) * r.size;
-        if (r.buffer && r.buffer.size() >= bytes) continue;
-        if (Status made = assign(r.buffer, Buffer::create(*device_, r.name, bytes)); !made) return made.failure();
+        if (Status made = makeAtLeast(*device_, r.buffer, r.name, bytes); !made) return made;
     }
     return Done{};
 }

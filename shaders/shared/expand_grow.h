@@ -128,8 +128,7 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower
     c.firstNode = branch == kNoIndex ? item.seed : first;
     c.depth = item.depth;
     c.step = (item.step & 0xFFFFFFu) | ((g.refused < 255u ? g.refused : 255u) << 24u);
-    uint flags = kChunkPublished | (g.reads.level > kMaxReadLevel ? kChunkReadsAll : 0u) | (goesOn ? 0u : kChunkEndsBranch);
-    flags = flags | (g.reads.beyond ? kChunkBeyond : 0u);
+    uint flags = kChunkPublished | (g.reads.beyond ? kChunkBeyond : 0u);
     flags = flags | (g.phase == kPhaseDead ? kChunkDeadEnd : 0u) | (g.phase == kPhaseStopped ? kChunkStopped : 0u);
     c.marks = (site.sceneLayers << 16u) | (g.count << 8u) | flags;
     c.uses = g.reads.uses;

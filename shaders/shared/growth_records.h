@@ -107,11 +107,8 @@ STATIC_SIZE(BranchRecord, 16);
 
 // Chunk::marks: bits 31..16 layers that were read, 15..8 number of nodes, 7..0 flags; 0: there is no such chunk any more
 CONST_UINT(kChunkPublished, 1u);
-CONST_UINT(kChunkReadsAll, 2u);     // it read on more than one surface instance: anywhere
-CONST_UINT(kChunkEndsBranch, 4u);
 CONST_UINT(kChunkStopped, 8u);      // a derivation or recursion limit ended it (counted in the stats)
 CONST_UINT(kChunkDeadEnd, 16u);     // no direction that its condition allows
-
 CONST_UINT(kChunkBeyond, 32u);      // it read at places that are none of its nodes': directions that failed
 
 // The read set: where the chunk read layers, failed directions and terminals included. kReadTiles tiles, which cover

@@ -5,7 +5,7 @@
 
 #include "sample_game/panels.hpp"
 #include "tests/editor/faults.hpp"
-#include "tests/editor/window.hpp"
+#include "tests/editor/widgets.hpp"
 
 using namespace espalier::document;
 using sample::Tool;
@@ -443,4 +443,41 @@ TEST_CASE("Esc gives back the radius that was there before F, whichever keys are
     CHECK(brush.radius == before.radius);
     CHECK(brush.strength == before.strength);
     CHECK(brush.value == before.value);
+}
+
+TEST_CASE("a click on the name of a value paints with it, which the line at the bottom tells") {
+    const Folder folder;
+    Painter painter(folder);
+    std::string status;
+    painter.panels = [&] {
+        ImGui::SetNextWindowPos({0, 0});
+        ImGui::Begin("panel");
+        sample::brushPanel(painter.work);
+        ImGui::End();
+        status = wordsOf([&] { sample::showStatus(painter.work, false, false); });
+    };
+    for (int i = 0; i < 2; ++i) painter.frame({});
+    CHECK_MESSAGE(contains(status, "paint mask: 1.00 (freely)"), status);
+    pressWidget(painter, "panel", {"named", "nowhere"});
+    CHECK(painter.work.brush.value == 0);
+    CHECK_MESSAGE(contains(status, "paint mask: 0.00 (nowhere)"), status);
+}
+
+TEST_CASE("a brush that was used in a scene of quite another size suits this one, any other stays as it is") {
+    const Folder folder;
+    Painter painter(folder);
+    auto& work = painter.work;
+    const float reach = work.reach();
+    REQUIRE(reach > 1);
+    for (const float radius : {.01f * reach, .1f * reach}) {
+        work.brush.radius = radius;
+        work.fitBrush();
+        CHECK(work.brush.radius == radius);
+    }
+    work.brush.radius = 20 * reach;
+    work.fitBrush();
+    CHECK(work.brush.radius < .2f * reach);
+    work.brush.radius = 1e-5f * reach;
+    work.fitBrush();
+    CHECK(work.brush.radius > .001f * reach);
 }

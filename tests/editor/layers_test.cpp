@@ -7,6 +7,7 @@
 
 #include "tests/editor/editing.hpp"
 #include "tools/document/project.hpp"
+#include "tools/scene/layers.hpp"
 #include "tools/scene/picture.hpp"
 
 using namespace espalier::document;
@@ -209,4 +210,24 @@ TEST_CASE("a layer is hatched where the brush's limits let no paint pass, and no
     }
     stroke.mode = "scrub";
     CHECK(!brushOf(stroke, brush, editing.error));
+}
+
+TEST_CASE("a label's names for values are read out of it, and what else it says is a note") {
+    using espalier::scene::wordsOf;
+    const auto words =
+        wordsOf("Wall height: 0 half, 0.5 as it is, 1 half as high again, of the whole house, all of it");
+    const auto& names = words.values;
+    REQUIRE(names.size() == 3);
+    CHECK(names[0].value == 0);
+    CHECK(names[0].name == "half");
+    CHECK(names[1].value == .5f);
+    CHECK(names[1].name == "as it is");
+    CHECK(names[2].name == "half as high again");
+    CHECK(words.note == "of the whole house, all of it");
+    for (const char* none : {"", "Moss", "Moss, 0 none", "Odd:", "Odd: "}) {
+        CHECK_MESSAGE(wordsOf(none).values.empty(), none);
+        CHECK_MESSAGE(wordsOf(none).note.empty(), none);
+    }
+    CHECK(wordsOf("Odd: 2 much, -1 little, 0").values.empty());
+    CHECK(wordsOf("Tint: white as they come").note == "white as they come");
 }

@@ -213,3 +213,33 @@ TEST_CASE("no seed is planted, moved or turned to where it isn't seen: outside o
     CHECK(gardener.seed(b) == turned);
     gardener.key(GLFW_KEY_ESCAPE);
 }
+
+TEST_CASE("a chosen seed that looks along the view has a ring around it, away from it a crossed one") {
+    const Folder folder;
+    Gardener gardener(folder);
+    const uint32_t key = gardener.plant(gardener.onWall(-1, 1));
+    // How far from the seed its marks reach, in pixels, and of how many corners these are.
+    const auto marks = [&](glm::vec3 direction) {
+        SeedRecord seed = gardener.seed(key);
+        seed.direction = array(glm::normalize(direction));
+        REQUIRE(gardener.work.perform(ChangeSeeds{{seed}}));
+        gardener.frame({});
+        const glm::vec2 at = gardener.marker(key);
+        float reach = 0;
+        size_t corners = 0;
+        for (const ImDrawVert& v : ImGui::GetBackgroundDrawList()->VtxBuffer) {
+            const float away = glm::distance(at, glm::vec2(v.pos.x, v.pos.y));
+            if (away > 30) continue;
+            reach = std::max(reach, away);
+            ++corners;
+        }
+        return std::pair(reach, corners);
+    };
+    const glm::vec3 towards = gardener.work.camera.eye() - vec(gardener.seed(key).position);
+    const auto [near, ring] = marks(towards);
+    const auto [far, crossed] = marks(-towards);
+    CHECK(near > 8);
+    CHECK(near < 14);
+    CHECK(far == doctest::Approx(near));
+    CHECK(crossed > ring);
+}

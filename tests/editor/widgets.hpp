@@ -2,6 +2,7 @@
 
 #include <imgui_internal.h>
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,13 @@ inline ImGuiID widget(const std::string& window, const std::vector<Part>& path) 
     for (const Part& part : path)
         id = part.word ? ImHashStr(part.word, 0, id) : ImHashData(&part.number, sizeof part.number, id);
     return id;
+}
+
+// The window in a window that BeginChild made by this name.
+inline std::string childOf(const char* window, const char* name) {
+    char whole[100];
+    std::snprintf(whole, sizeof whole, "%s/%s_%08X", window, name, widget(window, {name}));
+    return whole;
 }
 
 // All words that are written while it lays something out: of one window, and of a tip that it shows.

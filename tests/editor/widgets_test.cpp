@@ -286,8 +286,29 @@ TEST_CASE("light and view stand before what grammars have, with every tool") {
         editor.work.choose(tool);
         for (int i = 0; i < 3; ++i) editor.frame({});
         const char* group = tool == sample::Tool::look ? "look" : "tool";
-        const float light = heightOf(widget("Espalier", {group, "Light and view"}));
+        const float light = heightOf(widget(childOf("Espalier", "rest"), {group, "Light and view"}));
         CHECK(light < 90);
-        CHECK(light < heightOf(widget("Espalier", {0, "###ivy_guided"})));
+        CHECK(light < heightOf(widget(childOf("Espalier", "rest"), {0, "###ivy_guided"})));
     }
+}
+
+TEST_CASE("the tools stay in sight however far the panel is scrolled") {
+    const Folder folder;
+    Editor editor(folder, smallScene(folder), sample::Tool::paint);
+    editor.panels = [&] { sample::showPanel(editor.work); };
+    for (int i = 0; i < 3; ++i) editor.frame({});
+    ImGuiWindow* rest = ImGui::FindWindowByName(childOf("Espalier", "rest").c_str());
+    REQUIRE(rest);
+    REQUIRE(rest->ScrollMax.y > 100);
+    const auto toolAt = [&](glm::vec2 at) {
+        editor.mouse = at;
+        editor.frame({});
+        editor.frame({});
+        return ImGui::GetCurrentContext()->HoveredId == widget("Espalier", {"Look Q"});
+    };
+    const glm::vec2 look{30, ImGui::GetFrameHeight() + 18};
+    REQUIRE(toolAt(look));
+    ImGui::SetScrollY(rest, rest->ScrollMax.y);
+    CHECK(toolAt(look));
+    CHECK(rest->Scroll.y > 100);
 }

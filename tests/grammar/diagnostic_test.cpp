@@ -151,16 +151,16 @@ TEST_CASE("what is missing at a line's end is told there, and nobody who uses th
         return map.failure().text();
     };
     CHECK(told("A -> Marching(0.1, 0, true) {A, B}\nB -> S(0.1) Shape(\"bark\", C1 // with a remark\nC -> B\n") ==
-          "grammar:2:29: B: expected ')' behind the arguments, found the end of the line");
+          "grammar:2:29: B: expected ')' behind the arguments of Shape, found the end of the line");
     CHECK(told("A -> Marching(0.1, 0, true) {A, B\nB -> Shape(\"bark\", C1)\n") ==
-          "grammar:1:34: A: expected '}' behind the successors, found the end of the line");
+          "grammar:1:34: A: expected '}' behind the successors of Marching, found the end of the line");
     for (const char* next :
          {"A -> Marching(p, 0, true) {A}\n", "A : p > 0 -> Marching(p, 0, true) {A}\n",
           "param q = 1\nA -> Marching(p * q, 0, true) {A}\n", "let q = 1\nA -> Marching(p * q, 0, true) {A}\n"})
         CHECK(told(("param p = 2 *\n" + std::string(next)).c_str()) ==
               "grammar:1:14: p: expected a value, found the end of the line");
     CHECK(told("A -> Marching(0.1, 0, true) {A, B\nB : arc > 1 -> NULL\nB -> Branch(2) {A, A}\n") ==
-          "grammar:1:34: A: expected '}' behind the successors, found the end of the line");
+          "grammar:1:34: A: expected '}' behind the successors of Marching, found the end of the line");
     CHECK(told("context mask = \nA -> Marching(0.1, 0, mask(texCoord) > 0.5) {A}\n") ==
           "grammar:1:15: mask: expected a value, found the end of the line");
     CHECK(told("param hue = #12\nA -> Marching(0.1, 0, true) {A, B}\nB -> S(0.1) Colour(hue) Shape(\"bark\", C1)\n")

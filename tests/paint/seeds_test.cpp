@@ -430,3 +430,47 @@ TEST_CASE("a text that changes a rule lets what didn't use it stand, also where 
     painting.ok(espSetGrow(painting.context, &grow));
     CHECK(painting.grown().hash == after.hash);
 }
+
+TEST_CASE("a branch tells why it goes no further: its rules, its condition, the end of the ground, a limit") {
+    Painting painting(openQuad(4));
+    const EspGrammar grammar = painting.grammar(
+        "context mask = 1\nparam stride = 0.05 [0.01 .. 2]\n"
+        "Stem : step >= 5 -> NULL\n"
+        "Stem -> Marching(stride, 0, mask(texCoord) > 0.5) {Stem, Wood}\n"
+        "Wood -> S(0.01) Shape(\"bark\", C1)\n");
+    const EspSeed seed = painting.plant(grammar, {.5f, .05f, 0}, kUp);
+    const auto plant = [&] {
+        EspPlantInfo info{};
+        (void)painting.grown();
+        painting.ok(espPlantInfo(painting.context, seed, &info));
+        return info;
+    };
+    const auto limit = [&](uint64_t nodes) {
+        EspGrowDef grow = espDefaultGrowDef();
+        grow.maxNodes = nodes;
+        painting.ok(espSetGrow(painting.context, &grow));
+    };
+    CHECK(plant().end == ESP_END_BY_RULES);
+    // No step of this length leads anywhere within the square but the first.
+    const float stride = .9f;
+    painting.ok(espSetParam(painting.context, grammar, "stride", &stride, 1));
+    CHECK(plant().end == ESP_END_NO_GROUND);
+    CHECK(plant().nodes == 2);
+    EspPlantHit hit{};
+    painting.ok(pick(painting, {.5f, .5f, 2}, {.5f, .5f, 0}, &hit));
+    EspBranchInfo info{};
+    painting.ok(espBranchInfo(painting.context, hit.branch, &info));
+    CHECK(info.end == ESP_END_NO_GROUND);
+    EspStroke emptied{};
+    painting.ok(espFillLayer(painting.context, "mask", 0, &emptied));
+    CHECK(plant().end == ESP_END_REFUSED);
+    CHECK(plant().nodes == 1);
+    painting.ok(espFillLayer(painting.context, "mask", 1, &emptied));
+    limit(1);
+    CHECK(plant().end == ESP_END_BY_LIMIT);
+    CHECK(plant().nodes == 0);
+    limit(1000);
+    painting.ok(espPruneBranch(painting.context, hit.branch, 1));
+    CHECK(plant().end == ESP_END_BY_RULES);
+    CHECK(plant().nodes == 0);
+}

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <random>
 
 #include "tests/tools/program.hpp"
@@ -10,8 +11,8 @@
 
 namespace {
 
-// Fails as it should: not by a signal, with the message, and leaving nothing behind.
-void refuses(const std::string& command, const Folder& folder, std::initializer_list<const char*> parts) {
+// Fails as it should: not by a signal, with the message, which is given back, and leaving nothing behind.
+std::string refuses(const std::string& command, const Folder& folder, std::initializer_list<const char*> parts) {
     const size_t before = folder.count();
     const Ran ran = run(command);
     CAPTURE(command);
@@ -19,6 +20,7 @@ void refuses(const std::string& command, const Folder& folder, std::initializer_
     CHECK(ran.code > 0);
     for (const char* part : parts) CHECK_MESSAGE(contains(ran.output, part), part);
     CHECK(folder.count() == before);
+    return ran.output;
 }
 
 const char* kScene = R"({
@@ -194,6 +196,14 @@ TEST_CASE("scenes with mistakes tell the place of each") {
         folder,
         {"i.json:1:", "'grammar' must be a place", "i.json:2:", "'edges' must be a list", "'corners' must be a list",
          "two numbers", "'surface' must be a place", "i.json:4:", "'params' must be an object"});
+    refuses(
+        capture + folder.write("package.json", R"({"name": "x", "version": "1", "scripts": {}, "author": ""})") + out,
+        folder, {"package.json:1:1: a scene has none of the keys that are here, such as 'name'"});
+    std::string seeds = "{\"grammars\": [{\"file\": \"g\", \"seeds\": [";
+    for (int i = 0; i < 500; ++i) seeds += std::string(i ? "," : "") + "{\"position\": 1}";
+    const std::string told =
+        refuses(capture + folder.write("many.json", seeds + "]}]}") + out, folder, {"many.json:1:", "more mistakes"});
+    CHECK(std::ranges::count(told, '\n') < 15);
     refuses(capture + folder.write("nul.json", sceneOf(content("ruin.surface.glb") + "\\u0000x", "x")) + out, folder,
             {"nul.json:2:", "NUL"});
     refuses(capture + folder.write("sun.json", R"({"sun": {"direction": [0, 0, 0]}})") + out, folder,

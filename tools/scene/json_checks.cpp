@@ -1,11 +1,18 @@
 // Enters: a file's JSON. Leaves: its values, and of those that aren't what they are to be, what is wrong and where.
 #include "tools/scene/json_checks.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <vector>
 
 #include "tools/scene/text_file.hpp"
 
 namespace espalier::scene {
+namespace {
+
+constexpr size_t kMostTold = 10;
+
+}  // namespace
 
 bool readJsonFile(const std::string& path, Json& out, std::string& error) {
     std::string text;
@@ -13,6 +20,15 @@ bool readJsonFile(const std::string& path, Json& out, std::string& error) {
     if (readJson(text, out, error)) return true;
     error = path + ":" + error;
     return false;
+}
+
+std::string JsonChecks::errors() const {
+    if (failed_ <= kMostTold) return errors_;
+    return errors_ + "\n" + path_ + ": and " + std::to_string(failed_ - kMostTold) + " more mistakes";
+}
+
+void JsonChecks::fail(const Json& at, const std::string& message) {
+    if (++failed_ <= kMostTold) errors_ += (errors_.empty() ? "" : "\n") + place(at) + ": " + message;
 }
 
 void JsonChecks::index(const Json& json, const char* name, size_t count, int& out) {
@@ -77,11 +93,14 @@ bool JsonChecks::isObject(const Json& json, const std::string& what, std::initia
         fail(json, what + " must be an object");
         return false;
     }
-    for (const auto& [name, value] : json.members) {
-        bool known = false;
-        for (const char* key : keys) known = known || name == key;
-        if (!known) fail(value, what + " has no key '" + name + "'");
+    std::vector<const Json::Member*> unknown;
+    for (const auto& member : json.members)
+        if (std::ranges::find(keys, member.name) == keys.end()) unknown.push_back(&member);
+    if (unknown.size() > 1 && unknown.size() == json.members.size()) {  // another kind of file
+        fail(json, what + " has none of the keys that are here, such as '" + unknown[0]->name + "'");
+        return true;
     }
+    for (const auto* member : unknown) fail(member->value, what + " has no key '" + member->name + "'");
     return true;
 }
 

@@ -20,9 +20,9 @@ class JsonChecks {
   public:
     explicit JsonChecks(std::string path) : path_(std::move(path)) {}
 
-    // A line each, "file:line:column: what is wrong"; empty: all was well so far.
-    std::string errors() const { return errors_.substr(0, errors_.empty() ? 0 : errors_.size() - 1); }
-    void fail(const Json& at, const std::string& message) { errors_ += place(at) + ": " + message + "\n"; }
+    // A line each, "file:line:column: what is wrong", the first few; empty: all was well so far.
+    std::string errors() const;
+    void fail(const Json& at, const std::string& message);
     std::string place(const Json& at) const;
 
     // `what` begins the message. False: it isn't one, and has no members.
@@ -57,6 +57,7 @@ class JsonChecks {
 
   private:
     std::string path_, errors_;
+    size_t failed_ = 0;
 };
 
 }  // namespace espalier::scene

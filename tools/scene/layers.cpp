@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cctype>
 #include <iterator>
+#include <locale>
+#include <optional>
+#include <sstream>
 
 #include "tools/scene/town.hpp"
 
@@ -27,6 +30,18 @@ std::string whole(const std::vector<std::string>& names, const std::string& name
     const std::string stem = name.size() < 3 ? "" : name.substr(0, name.size() - 2);
     const bool channel = std::ranges::any_of(kChannels, [&](const char* c) { return name == stem + c; });
     return channel && !stem.empty() && areColour(names, stem) ? stem : name;
+}
+
+// Where a grammar declares one of the plugin's layers.
+struct Declaration {
+    EspGrammar grammar;
+    uint32_t index;
+};
+std::optional<Declaration> declarationOf(const EspContext* context, const Scene& scene, const std::string& layer) {
+    for (const LoadedGrammar& grammar : scene.grammars)
+        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i)
+            if (espLayerName(context, grammar.id, i) == layer) return Declaration{grammar.id, i};
+    return std::nullopt;
 }
 
 }  // namespace
@@ -93,10 +108,28 @@ void noteLayers(const EspContext* context, Scene& scene) {
 
 float fillOf(const EspContext* context, const Scene& scene, const std::string& layer) {
     if (float value; espLayerFilled(context, layer.c_str(), &value)) return value;
-    for (const LoadedGrammar& grammar : scene.grammars)
-        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i)
-            if (espLayerName(context, grammar.id, i) == layer) return espLayerFill(context, grammar.id, i);
-    return 0;
+    const auto declared = declarationOf(context, scene, layer);
+    return declared ? espLayerFill(context, declared->grammar, declared->index) : 0;
+}
+
+std::string labelOf(const EspContext* context, const Scene& scene, const std::string& layer) {
+    const auto declared = declarationOf(context, scene, layer);
+    return declared ? espLayerLabel(context, declared->grammar, declared->index) : "";
+}
+
+LayerWords wordsOf(const std::string& label) {
+    LayerWords words;
+    for (size_t at = label.find(':'); at != std::string::npos; at = label.find(',', at + 1)) {
+        const std::string text = label.substr(at + 1, label.find(',', at + 1) - at - 1);
+        std::istringstream part(text);
+        part.imbue(std::locale::classic());
+        NamedValue named;
+        if (part >> named.value >> std::ws && std::getline(part, named.name) && named.value >= 0 && named.value <= 1)
+            words.values.push_back(named);
+        else if (const size_t begin = text.find_first_not_of(' '); begin != std::string::npos)
+            words.note += (words.note.empty() ? "" : ", ") + text.substr(begin);
+    }
+    return words;
 }
 
 bool readChannels(const std::string& path, bool colour, std::vector<GreyPicture>& out, std::string& error) {

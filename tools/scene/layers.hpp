@@ -27,6 +27,21 @@ float fillOf(const EspContext* context, const Scene& scene, const std::string& l
 // The names of all layers that the grammars read, or that surfaces or the town are painted with, into the scene.
 void noteLayers(const EspContext* context, Scene& scene);
 
+// A value of a layer that has a name.
+struct NamedValue {
+    float value = 0;  // 0 to 1
+    std::string name;
+};
+// What a grammar's label says behind its title: "Missing tiles: 0 none, 1 all, of the whole house" names two values and
+// has a note.
+struct LayerWords {
+    std::vector<NamedValue> values;
+    std::string note;
+};
+LayerWords wordsOf(const std::string& label);
+// What the first grammar that declares one of the plugin's layers says of it; "" where none does.
+std::string labelOf(const EspContext* context, const Scene& scene, const std::string& layer);
+
 // A file's picture for each channel: three of a layer of colours, else one.
 bool readChannels(const std::string& path, bool colour, std::vector<GreyPicture>& out, std::string& error);
 

@@ -1,0 +1,78 @@
+#pragma once
+
+// How the functions of the ABI run, and what they say of their failures.
+
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+
+EspResult fail(const EspContext* context, EspResult code, std::string message);
+constexpr const char* kNoMemory = "out of memory";  // short enough to take none
+EspResult failContent(const EspContext* context, const Failure& failure);
+// For failures of GPU work: DEVICE_LOST or OUT_OF_MEMORY, as the device says.
+EspResult gpuCode(const EspContext& context);
+EspResult failGpu(const EspContext* context, const Failure& failure);
+// For work that may also refuse what it is given, as INVALID_CONTENT.
+EspResult failWork(const EspContext* context, const Failure& failure);
+// Why a file can't be read at all; empty: it can.
+std::string whyUnreadable(const char* path);
+// OK, or IO_FAILED with the system's reason, for a file that is to be read.
+EspResult checkReadable(const EspContext* context, const char* path);
+
+// Runs what grows: want of the host's own memory is a failure like that of the GPU's.
+template <class F>
+EspResult grownOr(const EspContext& context, F&& body) {
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return fail(&context, ESP_OUT_OF_MEMORY, kNoMemory);
+    }
+}
+
+// What espLastError(NULL) tells: why this thread's last call without a context failed.
+std::string& errorAlone();
+inline EspResult failAlone(EspResult code, std::string_view message) noexcept {
+    try {
+        errorAlone() = message;
+    } catch (...) {  // no memory for it: the code has to do
+        errorAlone().clear();
+    }
+    return code;
+}
+// Runs a function of the ABI. No exception leaves it.
+template <class F>
+EspResult guarded(const EspContext* context, F&& body) noexcept {
+    try {
+        if (!context) return failAlone(ESP_INVALID_ARGUMENT, "there is no context: it is null");
+        context->error.clear();
+        return body();
+    } catch (const std::bad_alloc&) {
+        return fail(context, ESP_OUT_OF_MEMORY, kNoMemory);
+    } catch (const std::exception& e) {
+        return fail(context, ESP_INVALID_CONTENT, e.what());
+    } catch (...) {
+        return fail(context, ESP_INVALID_CONTENT, "unknown error");
+    }
+}
+
+// The same for functions without a context.
+template <class F>
+EspResult guardedAlone(F&& body) noexcept {
+    try {
+        errorAlone().clear();
+        return body();
+    } catch (const std::bad_alloc&) {
+        return failAlone(ESP_OUT_OF_MEMORY, kNoMemory);
+    } catch (const std::exception& e) {
+        return failAlone(ESP_INVALID_CONTENT, e.what());
+    } catch (...) {
+        return failAlone(ESP_INVALID_CONTENT, "unknown error");
+    }
+}
+
+}  // namespace espalier

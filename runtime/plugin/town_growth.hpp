@@ -1,0 +1,28 @@
+#pragma once
+
+// The roofs of the town.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "runtime/plugin/context.hpp"
+
+namespace espalier {
+
+// Names of the meshes that grammars of roofs may ask for; reads their file the first time.
+Status knowRoofMeshes(EspContext& context);
+// Grows what has changed of the town; on failure the last roofs stand, and what changed waits.
+EspResult updateTown(EspContext& context);
+// Null: there is no town, or none that it grows by.
+const LoadedGrammar* townGrammar(const EspContext& context);
+// What the town's roofs read where nothing of the layer is painted.
+float fillOverTown(const EspContext& context, const std::string& name);
+// Gives roofs the town's layers, and adds to LoadedTown::changed the houses that have read what was painted since.
+void bindTownLayers(EspContext& context, RoofInputs& inputs);
+// Adds the town's roofs to what espMaterialise gives: TriangleVertex, uint32_t.
+EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices, std::vector<std::byte>& indices);
+// The number by which the town's grammar knows the layer; kNoIndex.
+uint32_t shownTownLayer(const EspContext& context, const std::string& name);
+
+}  // namespace espalier
