@@ -59,6 +59,10 @@ void valueButtons(const Workspace& work, Brush& brush) {
     ImGui::PopID();
 }
 
+const char* metresOf(float radius) {
+    return radius < .1f ? "%.3f m" : "%.2f m";
+}
+
 }  // namespace
 
 void brushPanel(Workspace& work) {
@@ -79,7 +83,7 @@ void brushPanel(Workspace& work) {
     ImGui::SameLine();
     mode("Smooth", "smooth", "Towards what is around; also with Shift");
     ImGui::PopID();
-    labelledSlider("Radius", &work.brushRadius(), kSmallestBrush, kLargestBrush, "%.3f m", true);
+    labelledSlider("Radius", &work.brushRadius(), kSmallestBrush, kLargestBrush, metresOf(work.brushRadius()), true);
     toolTip("[ and ], or F and a move of the mouse");
     labelledSlider("Strength", &b.strength, .01f, 1, "%.2f");
     toolTip("How much one dab changes, or Shift+F and a move of the mouse");

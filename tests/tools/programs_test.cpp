@@ -40,13 +40,17 @@ std::string sceneOf(std::string surface, std::string grammar) {
 TEST_CASE("layers that no grammar of a scene reads are warned of, and aren't there to be exported") {
     const Folder folder;
     std::string scene = sceneOf(content("ruin.surface.glb"), content("grammars/ivy_free.grammar"));
-    scene.replace(scene.rfind('}'), 1, R"(, "layers": {"maks": "nosuch.png"}, "filled": {"tnit": 0}})");
+    scene.replace(scene.rfind('}'), 1,
+                  R"(, "layers": {"maks": "nosuch.png", "mask": "odd.exr"}, "filled": {"tnit": 0}})");
+    std::string error;
+    REQUIRE_MESSAGE(espalier::scene::writeGrey(folder.file("odd.exr"), {2, 2, {0, 1, 7, 1}}, error), error);
     folder.write("scene.json", scene);
     const std::string capture =
         program("espalier-capture") + " " + folder.file("scene.json") + " --size 64x36 -o " + folder.file("out");
     const Ran ran = run(capture);
     CHECK_MESSAGE(ran.code == 0, ran.output);
     for (const char* layer : {"'maks'", "'tnit'"}) CHECK_MESSAGE(contains(ran.output, layer), ran.output);
+    CHECK_MESSAGE(contains(ran.output, "odd.exr: 1 values are limited to 0 to 1"), ran.output);
     const Ran exported = run(capture + " --export maks=" + folder.file("maks.png"));
     CHECK(exported.code == 1);
     CHECK_MESSAGE(contains(exported.output, "has no layer 'maks'"), exported.output);

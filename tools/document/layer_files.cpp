@@ -69,6 +69,8 @@ std::string describe(const Imported& p, uint32_t side) {
                std::to_string(side) + " x " + std::to_string(side);
     if (p.shape.channels > 2 && p.picture->size() == 1)
         text += std::string(text.empty() ? "" : "; ") + "of its colours the red";
+    if (const uint64_t limited = p.picture->front().limited)
+        text += std::string(text.empty() ? "" : "; ") + "with " + std::to_string(limited) + " values limited to 0 to 1";
     return text.empty() ? text : name + " is " + text;
 }
 

@@ -198,6 +198,8 @@ bool layLayer(EspContext* context, Scene& scene, const SceneLayer& layer, Carryi
     // Projects have what the plugin has: a colour's channels, each by itself.
     const bool colour = !scene.project && isColour(scene, layer.name);
     if (!readChannels(layer.file, colour, pictures, error)) return false;
+    if (const uint64_t limited = pictures.front().limited)
+        scene.notes.push_back(layer.file + ": " + std::to_string(limited) + " values are limited to 0 to 1");
     const std::vector<std::string> channels = colour ? channelsOf(scene, layer.name) : std::vector{layer.name};
     for (size_t c = 0; c < channels.size(); ++c) {
         std::string note;

@@ -51,13 +51,14 @@ bool storesIntegers(const OIIO::ImageSpec& spec) {
     return !spec.format.is_floating_point();
 }
 
-// Into what layers hold. False: some are no numbers.
-bool limit(const std::string& path, std::vector<float>& texels, std::string& error) {
+// Into what layers hold; limited: how many weren't that. False: some are no numbers.
+bool limit(const std::string& path, std::vector<float>& texels, uint64_t& limited, std::string& error) {
     const auto isNumber = [](float texel) { return std::isfinite(texel); };
     if (!std::ranges::all_of(texels, isNumber)) {
         error = path + ": holds what is no finite number";
         return false;
     }
+    limited = uint64_t(std::ranges::count_if(texels, [](float texel) { return texel < 0 || texel > 1; }));
     for (float& texel : texels) texel = std::clamp(texel, 0.f, 1.f);
     return true;
 }
@@ -106,7 +107,7 @@ float srgbOf(float linear) {
 
 bool readGrey(const std::string& path, GreyPicture& out, std::string& error) {
     if (!read(path, 1, OIIO::TypeDesc::FLOAT, out.width, out.height, out.texels, error)) return false;
-    return limit(path, out.texels, error);
+    return limit(path, out.texels, out.limited, error);
 }
 
 bool readColours(const std::string& path, std::vector<GreyPicture>& channels, std::string& error) {
@@ -117,9 +118,11 @@ bool readColours(const std::string& path, std::vector<GreyPicture>& channels, st
     const size_t texels = size_t(spec.width) * size_t(spec.height);
     std::vector<float> all(texels * size_t(count));
     if (!input->read_image(0, 0, 0, count, OIIO::TypeDesc::FLOAT, all.data())) return damaged(path, *input, error);
-    if (!limit(path, all, error)) return false;
+    uint64_t limited = 0;
+    if (!limit(path, all, limited, error)) return false;
     if (storesIntegers(spec)) std::ranges::transform(all, all.begin(), linearOf);
     channels.assign(3, {uint32_t(spec.width), uint32_t(spec.height), std::vector<float>(texels)});
+    channels[0].limited = limited;
     for (size_t c = 0; c < 3; ++c)
         for (size_t i = 0; i < texels; ++i) channels[c].texels[i] = all[i * size_t(count) + (count == 3 ? c : 0)];
     return true;

@@ -10,6 +10,7 @@ namespace espalier::scene {
 struct GreyPicture {
     uint32_t width = 0, height = 0;
     std::vector<float> texels;  // rows top to bottom, as stored: no colour space is undone
+    uint64_t limited = 0;       // of the numbers in its file, which lay beyond 0 to 1; of colours with the red
 };
 struct PictureShape {
     uint32_t width = 0, height = 0, channels = 0;
