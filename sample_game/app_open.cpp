@@ -3,11 +3,9 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -15,18 +13,12 @@
 #include "sample_game/app_state.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/settings.hpp"
-#include "sample_game/theme.hpp"
 #include "tools/document/project.hpp"
 
 namespace sample {
 
 namespace fs = std::filesystem;
 using espalier::document::Document;
-using espalier::document::Work;
-
-void WindowCloser::operator()(GLFWwindow* window) const {
-    glfwDestroyWindow(window);
-}
 
 bool App::fail(const std::string& message) {
     std::fprintf(stderr, "espalier-sample: %s\n", message.c_str());
@@ -52,75 +44,8 @@ App::~App() {
 namespace {
 
 constexpr std::chrono::milliseconds kOpeningEvery{100};  // between two pictures of how far it is
-constexpr uint32_t kLeastWidth = 480, kLeastHeight = 320;
-
-// What was asked for, times the display's scale, may be more than the display has room for.
-void fitDisplay(GLFWwindow* window) {
-    int x, y, most[2] = {0, 0}, size[2];
-    if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(monitor, &x, &y, &most[0], &most[1]);
-    glfwGetWindowSize(window, &size[0], &size[1]);
-    if (most[0] > 0 && (size[0] > most[0] || size[1] > most[1]))
-        glfwSetWindowSize(window, std::min(size[0], most[0]), std::min(size[1], most[1]));
-}
 
 }  // namespace
-
-// What the last session has left. Tests and scripts neither find nor leave anything.
-void App::recall() {
-    layoutFile_ = options_.frames || configFolder().empty() ? "" : configFolder() + "/windows.ini";
-    if (layoutFile_.empty()) return;
-    std::error_code ignored;
-    fs::create_directories(configFolder(), ignored);
-    readLayout(work_.layout, work_.brush, layoutError_);
-    const Layout& layout = work_.layout;
-    if (options_.sized || layout.windowWidth < kLeastWidth || layout.windowHeight < kLeastHeight) return;
-    options_.width = int(layout.windowWidth);
-    options_.height = int(layout.windowHeight);
-}
-
-void App::keepLayout() {
-    if (layoutFile_.empty()) return;
-    Layout& layout = work_.layout;
-    layout.maximised = glfwGetWindowAttrib(window_.get(), GLFW_MAXIMIZED);
-    if (!layout.maximised) {
-        float scale = 1, y = 1;
-        glfwGetWindowContentScale(window_.get(), &scale, &y);  // which a new window is made larger by
-        int width = 0, height = 0;
-        glfwGetWindowSize(window_.get(), &width, &height);
-        layout.windowWidth = uint32_t(std::lround(float(width) / scale));
-        layout.windowHeight = uint32_t(std::lround(float(height) / scale));
-    }
-    writeLayout(layout, work_.brush);
-}
-
-bool App::openWindow() {
-    glfwSetErrorCallback([](int, const char* text) { std::fprintf(stderr, "espalier-sample: window: %s\n", text); });
-    if (!glfwInit()) return fail("there is no display to open a window on; tools/run writes frames to out/ then");
-    glfw_ = true;
-    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    glfwWindowHint(GLFW_MAXIMIZED, !options_.sized && work_.layout.maximised);
-    window_.reset(glfwCreateWindow(options_.width, options_.height, "Espalier", nullptr, nullptr));
-    if (!window_) return fail("the window can't be opened");
-    fitDisplay(window_.get());
-    glfwSetWindowSizeLimits(window_.get(), int(kLeastWidth), int(kLeastHeight), GLFW_DONT_CARE, GLFW_DONT_CARE);
-    host_ = std::make_unique<VulkanHost>();
-    uint32_t count = 0;
-    const char* const* extensions = espRequiredExtensions(&count);
-    if (!host_->create(window_.get(), options_.validation, espRequiredFeatures(), extensions, count))
-        return fail(host_->error());
-    return true;
-}
-
-void App::openUi() {
-    ImGui::CreateContext();
-    imgui_ = true;
-    ImGui::GetIO().IniFilename = layoutFile_.empty() ? nullptr : layoutFile_.c_str();
-    input_ = std::make_unique<Input>(window_.get());
-    controls_ = std::make_unique<Controls>(work_, session_, input_.get());
-    ImGui_ImplGlfw_InitForVulkan(window_.get(), false);
-    rescale();
-}
 
 bool App::openDocument(const espalier::scene::Request& request, std::string& error) {
     EspHostDevice device{};
@@ -227,19 +152,6 @@ bool App::open() {
     return records || fail(work_.error);
 }
 
-// The display's scale, or the size of letters, has changed.
-bool App::rescale() {
-    float scale = 1, y = 1;
-    glfwGetWindowContentScale(window_.get(), &scale, &y);
-    if (options_.uiScale > 0) scale = options_.uiScale;
-    scale = std::max(scale, .5f) * work_.layout.sizeOfAll;
-    if (scale == themeScale_ || (themeScale_ > 0 && ImGui::IsMouseDown(0))) return true;
-    themeScale_ = work_.scale = scale;
-    applyTheme(scale);
-    wake();
-    return !ui_ || ui_->updateFonts() || fail(ui_->error());
-}
-
 // What is clicked while something is opened isn't meant for what will be there.
 void App::dropClicks() {
     const size_t before = input_->gui.count();
@@ -272,73 +184,6 @@ bool App::showOpening(const std::string& file, const std::string& part, float sh
     clear(*frame, {{.1f, .1f, .1f, 1}});
     return (ui_->draw(*frame, *ImGui::GetDrawData()) || fail(ui_->error())) &&
            (host_->end(*frame) || fail(host_->error()));
-}
-
-// Opened anew, a dialogue would be gone, and what is typed into it meant for the tools: that comes first.
-void App::followModels() {
-    if (!session_.reload && reloading_.kept.empty()) return;
-    const bool waits = usesPanels();
-    if (waits && !reloadWaits_) work_.message = "A model has changed on disk: it is read when you are done here";
-    reloadWaits_ = waits;
-    if (waits || !session_.idle()) return;
-    if (session_.reload && session_.autosaves().recovery().empty()) reload();
-    if (!reloading_.kept.empty() && !work_.busy && session_.idle()) openReloaded();
-}
-
-void App::dropReloaded() {
-    std::error_code ignored;
-    if (!reloading_.kept.empty()) fs::remove_all(fs::path(reloading_.kept).parent_path(), ignored);
-    reloading_ = {};
-}
-
-// By way of a project, so that everything that was done stands; only undo doesn't reach behind it. It is saved beside
-// the frames; what is done meanwhile isn't in it, so it is then saved again.
-void App::reload() {
-    session_.reload = false;
-    std::error_code failed;
-    const fs::path temporary = fs::temp_directory_path(failed);
-    if (failed) {
-        work_.error = "Not reloaded: TMPDIR is no folder";
-        return;
-    }
-    const fs::path folder = temporary / ("espalier-reload-" + std::to_string(getpid()));
-    const std::string kept = (folder / work_.scene().name).string();
-    const auto state = std::make_shared<uint64_t>();
-    session_.background().ask({"Reloading " + fs::path(session_.file()).filename().string(),
-                               [this, kept, state] {
-                                   *state = work_.document->state();
-                                   return saving(*work_.document, kept);
-                               },
-                               [this, kept, state](const Work& over) {
-                                   const bool done = over.state() == Work::State::done;
-                                   std::error_code ignored;
-                                   if (done)
-                                       reloading_ = {kept, *state};
-                                   else
-                                       fs::remove_all(fs::path(kept).parent_path(), ignored);
-                                   if (!over.error().empty()) work_.error = "Not reloaded: " + over.error();
-                               }});
-}
-
-void App::openReloaded() {
-    const auto [kept, state] = std::exchange(reloading_, {});
-    const Session::Origin origin = session_.origin(work_);
-    const Workspace::Hands hands = work_.hands();
-    const bool recorded = session_.recording();
-    session_.reload = state != work_.document->state();
-    session_.goesOn = !session_.reload;
-    work_.error.clear();
-    if (session_.goesOn && showOpening(origin.autosaves.file) && openDocument({kept, {}, {}, {}}, work_.error)) {
-        work_.takeUp(hands);
-        session_.setOrigin(work_, origin);
-        const std::string notes = std::exchange(work_.message, {});
-        work_.message = "Its model has changed on disk: " + fs::path(origin.autosaves.file).filename().string() +
-                        " was reloaded" + (recorded ? "; the recording has ended" : "") + (notes.empty() ? "" : "\n") +
-                        notes;
-    }
-    session_.goesOn = false;
-    std::error_code ignored;
-    fs::remove_all(fs::path(kept).parent_path(), ignored);
 }
 
 // Asked for by a dialogue or dropped onto the window: what can't be opened leaves the old document.

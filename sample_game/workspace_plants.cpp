@@ -1,0 +1,114 @@
+// Plants and their branches: picked, pruned, frozen, and asked why nothing grows.
+#include <algorithm>
+#include <cstdio>
+
+#include "sample_game/crossings.hpp"
+#include "sample_game/workspace.hpp"
+
+namespace sample {
+
+void Workspace::pickBranch(glm::vec2 at) {
+    const Ray ray = rayThrough(at);
+    EspPlantHit found;
+    branch.reset();
+    message.clear();
+    if (espPickPlant(context.get(), &ray.origin.x, &ray.direction.x, &found) == ESP_OK)
+        branch = found.branch;
+    else
+        say("No branch there: click a stem or a leaf");
+    readPath();
+}
+
+// Asked in every frame: picked only when mouse or camera have moved, since what has grown anew has to be read back
+// first.
+void Workspace::pointAtBranch(std::optional<glm::vec2> at) {
+    if (!at) {
+        pointer_.reset();
+        pointed.clear();
+        return;
+    }
+    const Ray ray = rayThrough(*at);
+    if (std::exchange(pointedAt_, stats.expansions) != stats.expansions) pointed.clear();
+    if (pointer_ && pointer_->origin == ray.origin && pointer_->direction == ray.direction) return;
+    pointer_ = ray;
+    pointed.clear();
+    EspPlantHit found;
+    if (espPickPlant(context.get(), &ray.origin.x, &ray.direction.x, &found) == ESP_OK) pointed = pathOf(found.branch);
+}
+
+void Workspace::pickParent() {
+    if (!branch || path.empty()) return;
+    branch = branchInfo.parent;
+    readPath();
+}
+
+const espalier::scene::Seed* Workspace::branchSeed() const {
+    if (!branch || path.empty()) return nullptr;
+    const auto grows = [&](const espalier::scene::Seed& seed) { return seed.planted.id == branchInfo.seed.id; };
+    const auto found = std::ranges::find_if(scene().seeds, grows);
+    return found == scene().seeds.end() ? nullptr : &*found;
+}
+
+void Workspace::prune() {
+    if (!branch || path.empty()) return say("No branch is picked: click one");
+    if (const auto* seed = branchSeed(); seed && seed->frozen)
+        return say("A frozen plant stays as it is: thaw it to prune");
+    char key[20];
+    std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(*branch));
+    if (!perform(espalier::document::PruneBranch{key, true})) return;
+    message = "The branch is cut away, with all that grows from it";
+    branch.reset();
+    path.clear();
+}
+
+void Workspace::renumberSeeds() {
+    espalier::document::ChangeSeeds change;
+    for (const auto& seed : scene().seeds) {
+        change.seeds.push_back(document->recordOf(seed));
+        change.seeds.back().number = seed.number * 747796405u + 2891336453u;
+    }
+    if (!change.seeds.empty()) changeSeeds(change);
+}
+
+void Workspace::changeSeeds(const espalier::document::ChangeSeeds& change, uint32_t gesture) {
+    const bool done = perform(change, gesture);
+    if (done && std::ranges::any_of(change.seeds, [](const auto& seed) { return bool(seed.frozen); }))
+        say("A frozen plant stays as it is: what was changed is seen once it is thawed");
+}
+
+void Workspace::freeze(const std::vector<uint32_t>& keys, bool frozen) {
+    perform(espalier::document::FreezeSeeds{keys, frozen});
+}
+
+std::vector<EspPathSample> Workspace::pathOf(uint64_t of) const {
+    uint32_t count = 0;
+    if (espBranchPath(context.get(), of, nullptr, &count) != ESP_OK) return {};
+    std::vector<EspPathSample> samples(count);
+    if (espBranchPath(context.get(), of, samples.data(), &count) != ESP_OK) samples.clear();
+    return samples;
+}
+
+void Workspace::readPath() {
+    path = branch ? pathOf(*branch) : std::vector<EspPathSample>{};
+    if (!path.empty() && espBranchInfo(context.get(), *branch, &branchInfo) != ESP_OK) path.clear();
+    crossings = crossingsOf(path);
+}
+
+void Workspace::noteGrown(bool plants) {
+    const bool edited = std::exchange(grownRevision, document->revision()) != document->revision();
+    growsWide = false;
+    if (branch && (plants || edited)) readPath();
+}
+
+std::optional<EspBranchEnd> Workspace::barren(uint32_t key) {
+    const auto* seed = document->seed(key);
+    if (!seed) return {};
+    if (asked_.key == key && asked_.expansions == stats.expansions) return asked_.end;
+    EspPlantInfo plant{};
+    asked_ = {key, stats.expansions, {}};
+    const bool known = espPlantInfo(context.get(), seed->planted, &plant) == ESP_OK;
+    if (known && plant.nodes < 2) asked_.end = plant.end;  // the first stands where the seed does
+    return asked_.end;
+}
+
+}  // namespace sample
