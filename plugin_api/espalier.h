@@ -201,7 +201,8 @@ ESP_API EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* de
 /* Replaces the text; parameters keep their values by name. On failure the last good grammar keeps growing. Where comments,
  * layout, labels or defaults alone are new, nothing grows anew; where only what is drawn on spans is, bark and leaves, no node
  * is derived again; where rules are, the plants' chunks that used one. ESP_INVALID_CONTENT also where seeds grow by the grammar
- * and it would make roofs, or the town's roofs and it would make none. */
+ * and it would make roofs, or the town's roofs and it would make none, or where a seed begins with a symbol from which nothing
+ * grows any more. */
 ESP_API EspResult espRecompileGrammar(EspContext* context, EspGrammar grammar, const EspGrammarDef* def);
 /* What isn't wrong in the text that grows, but may not be meant: lines "file:line:column: warning: rule: message", "" if there
  * are none. Lives as long as the grammar and until it is compiled anew. */

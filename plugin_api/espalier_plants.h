@@ -77,19 +77,21 @@ typedef struct EspPathSample {
 /* From the node that the branch leaves from to its tip. *count: room in samples, set to how many there are. */
 ESP_API EspResult espBranchPath(EspContext* context, uint64_t branch, EspPathSample* samples, uint32_t* count);
 
-/* Why a branch goes no further. */
+/* Why a branch goes no further. A frozen plant's tell what was so when it grew. */
 typedef enum EspBranchEnd {
-    ESP_END_BY_RULES = 0,     /* no rule leads on: it is as long as the grammar makes it */
-    ESP_END_REFUSED = 1,      /* no direction of the half circle ahead served (§8), and lately a condition has failed for what
-                                 it asks of where a step would end: what is painted or steep there, how far that is */
-    ESP_END_NO_GROUND = 2,    /* no direction served, since the ground ends: at a border, bare or buried */
-    ESP_END_BY_LIMIT = 3      /* a limit stopped it, such as EspGrowDef's nodes */
+    ESP_END_BY_RULES = 0,     /* no rule leads on, or Marching's condition has ended it whatever the place: by `step`, by
+                                 arguments. Pruned ones, too */
+    ESP_END_REFUSED = 1,      /* no direction of the half circle ahead served (§8), and of one at least the condition doesn't
+                                 hold where it leads: what is painted or steep there, how long the branch is (`arc`) */
+    ESP_END_NO_GROUND = 2,    /* no direction served, and all for want of ground: a border, bare or buried. Seeds that wait
+                                 for ground, too */
+    ESP_END_BY_LIMIT = 3      /* a limit stopped it: EspGrowDef's maxNodes or maxDepth. Seeds that haven't grown yet, too */
 } EspBranchEnd;
 
 typedef struct EspPlantInfo {
     uint32_t nodes;                            /* 0: nothing has grown from the seed */
     float boundsMin[3], boundsMax[3];          /* world, of its nodes; a seed without nodes: its own place */
-    EspBranchEnd end;                          /* of the seed's own branch; pruned: ESP_END_BY_RULES */
+    EspBranchEnd end;                          /* of the seed's own branch */
 } EspPlantInfo;
 /* Of one seed's plant. ESP_INVALID_ARGUMENT if there is no such seed. */
 ESP_API EspResult espPlantInfo(EspContext* context, EspSeed seed, EspPlantInfo* out);

@@ -8,12 +8,12 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "sample_game/app_state.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/settings.hpp"
-#include "tools/document/project.hpp"
 
 namespace sample {
 
@@ -112,7 +112,6 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     if (options_.frames) session_.autosaves().forgetRecovery(false);
     work_.start = work_.scene().camera;
     work_.lookFromStart();
-    work_.fitBrush();
     retitle();
     return true;
 }
@@ -140,6 +139,7 @@ bool App::open() {
     if (run && !replay_.read(options_.request.file, error)) return fail(error);
     if (run) options_.request.file = replay_.scene();
     if (!openDocument(options_.request, error)) return fail(error);
+    work_.fitBrush();
     if (!layoutError_.empty()) work_.error = layoutError_;
     work_.editing = options_.editor;
     if (run) beginReplay();
@@ -194,6 +194,7 @@ bool App::openNext() {
     const bool run = Replay::names(file);
     if ((!run || replay_.read(file, work_.error)) &&
         openDocument({run ? replay_.scene() : file, {}, {}, {}}, work_.error)) {
+        work_.fitBrush();
         if (run) beginReplay();
         return true;
     }

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <memory>
 #include <utility>
 
 #include "sample_game/app_state.hpp"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 
 #include "sample_game/app_state.hpp"
 #include "sample_game/settings.hpp"

@@ -1,9 +1,9 @@
 // The panel at the left: one tool at a time with its settings, then what the scene is made of.
 #include <imgui.h>
-#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <span>
 #include <utility>
 

@@ -46,15 +46,17 @@ void limits(const Workspace& work, Brush& brush) {
 // The values that the layer's grammar has names for, to be taken by a click.
 void valueButtons(const Workspace& work, Brush& brush) {
     const std::string label = espalier::scene::labelOf(work.context.get(), work.scene(), brush.layer);
-    const auto values = espalier::scene::wordsOf(label).values;
+    const auto values = espalier::scene::labelWords(label).values;
     ImGui::PushID("named");
     for (const auto& named : values) {
+        ImGui::PushID(int(&named - values.data()));
         const float width = ImGui::CalcTextSize(named.name.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x;
         if (&named != &values.front()) sameLineIfRoom(width);
         if (chosenButton(named.name.c_str(), brush.value == named.value, {0, 0})) brush.value = named.value;
         char tip[64];
         std::snprintf(tip, sizeof tip, "Paints %.2g", double(named.value));
         toolTip(tip);
+        ImGui::PopID();
     }
     ImGui::PopID();
 }

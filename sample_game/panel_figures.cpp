@@ -167,7 +167,7 @@ namespace {
 void namedRows(const Workspace& work, const std::string& layer) {
     const float side = ImGui::GetFontSize();
     const std::string label = espalier::scene::labelOf(work.context.get(), work.scene(), layer);
-    for (const auto& named : espalier::scene::wordsOf(label).values) {
+    for (const auto& named : espalier::scene::labelWords(label).values) {
         const ImVec2 at = ImGui::GetCursorScreenPos();
         ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side},
                                                   faded(viewColour(ESP_VIEW_LAYER, named.value)));

@@ -40,10 +40,10 @@ std::vector<Layer> layersOf(const Workspace& work) {
                 if (channels[0] != espLayerName(context, grammar, i)) continue;
                 for (size_t c = 0; layer.readers.empty() && c < channels.size(); ++c)
                     layer.fill[c] = espLayerFill(context, grammar, i + uint32_t(c));
-                if (layer.label.empty()) layer.label = espLayerLabel(context, grammar, i);
                 layer.readers += (layer.readers.empty() ? "" : ", ") + grammarName(work.scene(), g);
             }
         }
+        layer.label = espalier::scene::labelOf(context, work.scene(), channels[0]);
         layers.push_back(layer);
     }
     for (const auto& known : espalier::scene::townLayers(context))
@@ -105,9 +105,12 @@ void chosenLayer(Workspace& work, const Layer& layer) {
         ImGui::TextDisabled("%s.", now);
     else if (!changesNothing)
         ImGui::TextDisabled("%s: %s %.2g.", now, layer.painted ? "elsewhere it is" : "all of it is", layer.fill[0]);
-    // Values have names beside the brush.
-    const std::string note = layer.readers.empty() ? "" : espalier::scene::wordsOf(layer.label).note;
-    if (!note.empty()) ImGui::TextDisabled("%s.", (char(std::toupper(note[0])) + note.substr(1)).c_str());
+    // What values mean stands beside the brush, where that is.
+    std::string note = espalier::scene::labelWords(layer.label).note;
+    if (const size_t rest = layer.label.find(": "); rest != std::string::npos && work.tool != Tool::paint)
+        note = layer.label.substr(rest + 2);
+    if (!note.empty()) note[0] = char(std::toupper(static_cast<unsigned char>(note[0])));
+    if (!note.empty()) ImGui::TextDisabled("%s.", note.c_str());
     if (layer.town) ImGui::TextDisabled("Drag over the roofs: paint falls straight down.");
     ImGui::PopTextWrapPos();
 }

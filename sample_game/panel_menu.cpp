@@ -42,7 +42,7 @@ std::string strokeOf(const Workspace& work, bool control) {
     std::snprintf(text, sizeof text, "%.2f", double(to));
     std::string name;
     for (const auto& named :
-         espalier::scene::wordsOf(espalier::scene::labelOf(work.context.get(), work.scene(), brush.layer)).values)
+         espalier::scene::labelWords(espalier::scene::labelOf(work.context.get(), work.scene(), brush.layer)).values)
         if (named.value == to) name = " (" + named.name + ")";
     return mode + " " + brush.layer + (mode == "paint" ? ": " : " back to ") + text + name;
 }

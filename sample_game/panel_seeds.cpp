@@ -3,6 +3,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "sample_game/panels.hpp"
@@ -64,31 +65,36 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
     ImGui::TreePop();
 }
 
-const char* whyBarren(const Workspace& work, EspBranchEnd end) {
-    if (end == ESP_END_NO_GROUND) return "Nothing grows from it: no ground goes on from here. Key 2 shows the ground.";
-    if (end == ESP_END_BY_LIMIT) return "Nothing grows from it: the scene's plants are as many as they may be.";
+const char* whyBarren(const Workspace& work, const EspPlantInfo& plant) {
+    if (plant.end == ESP_END_NO_GROUND)
+        return "Nothing grows from it: no ground goes on from here. Key 2 shows the ground.";
+    if (plant.end == ESP_END_BY_LIMIT) return "Nothing grows from it: the scene's plants are as many as they may be.";
+    if (plant.end == ESP_END_BY_RULES && plant.nodes == 0)
+        return "Nothing grows from it: it is pruned. P and Let all grow again bring it back.";
     if (work.scene().layers.empty()) return "Nothing grows from it: its rules make nothing here.";
     return "Nothing grows from it: it may be that a layer is empty here. B shows what is painted.";
 }
 
-// One row of a seed's numbers for all that are chosen.
-void chosenSeeds(Workspace& work) {
-    std::vector<SeedRecord> chosen;
-    for (const Seed& seed : work.scene().seeds)
-        if (work.selected.count(seed.key)) chosen.push_back(work.document->recordOf(seed));
-    if (chosen.empty()) {
-        ImGui::TextDisabled("No seed is chosen");
-        return;
+// A list of the scene's grammars, where there are several. The one that is taken of it; nothing: none.
+std::optional<uint32_t> chooseGrammar(const Workspace& work, const char* label, uint32_t now, const char* tip) {
+    std::optional<uint32_t> taken;
+    const auto& grammars = work.scene().grammars;
+    if (grammars.size() < 2) return taken;
+    rowLabel(label);
+    ImGui::PushID(label);
+    if (beginCombo("##grammar", grammarName(work.scene(), now))) {
+        for (uint32_t i = 0; i < grammars.size(); ++i)
+            if (ImGui::Selectable(grammarName(work.scene(), i).c_str(), i == now)) taken = i;
+        ImGui::EndCombo();
     }
-    if (chosen.size() == 1)
-        ImGui::Text("Seed at %.2f, %.2f, %.2f", chosen[0].position[0], chosen[0].position[1], chosen[0].position[2]);
-    else
-        ImGui::Text("%zu seeds chosen", chosen.size());
-    // Growth is read back for it: not while a seed is on its way, nor before it has grown.
-    const bool settled = !work.underWay && work.grownRevision == work.document->revision();
-    if (chosen.size() == 1 && settled && !ImGui::IsMouseDown(0))
-        if (const auto end = work.barren(chosen[0].key)) hint(whyBarren(work, *end));
-    uint32_t gesture = 0;  // of what has changed; 0: nothing has
+    ImGui::PopID();
+    toolTip(tip);
+    return taken;
+}
+
+// The row of random numbers. The gesture of what has changed; 0: nothing has.
+uint32_t randomNumbers(Workspace& work, std::vector<SeedRecord>& chosen) {
+    uint32_t gesture = 0;
     int64_t number = chosen[0].number;
     rowLabel("Random no.");
     const float another = ImGui::CalcTextSize("Another").x + 2 * ImGui::GetStyle().FramePadding.x;
@@ -114,21 +120,10 @@ void chosenSeeds(Workspace& work) {
         gesture = work.newGesture();
     }
     toolTip("Another random number: another plant from the same seed");
-    if (work.scene().grammars.size() > 1) {
-        const uint32_t now = chosen[0].grammar;
-        rowLabel("Grammar");
-        if (beginCombo("##grammar", grammarName(work.scene(), now))) {
-            for (uint32_t i = 0; i < work.scene().grammars.size(); ++i)
-                if (ImGui::Selectable(grammarName(work.scene(), i).c_str(), i == now)) {
-                    for (SeedRecord& seed : chosen) seed.grammar = i;
-                    gesture = work.newGesture();
-                }
-            ImGui::EndCombo();
-        }
-        toolTip("What grows from the chosen seeds");
-    }
-    if (gesture) work.changeSeeds({chosen}, gesture);
-    ownValues(work, chosen);
+    return gesture;
+}
+
+void seedButtons(Workspace& work, const std::vector<SeedRecord>& chosen) {
     std::vector<uint32_t> growing, frozen;
     for (const SeedRecord& seed : chosen) (seed.frozen ? frozen : growing).push_back(seed.key);
     if (!growing.empty()) {
@@ -147,19 +142,39 @@ void chosenSeeds(Workspace& work) {
     toolTip("The chosen seeds go, with what grew from them");
 }
 
+// One row of a seed's numbers for all that are chosen.
+void chosenSeeds(Workspace& work) {
+    std::vector<SeedRecord> chosen;
+    for (const Seed& seed : work.scene().seeds)
+        if (work.selected.count(seed.key)) chosen.push_back(work.document->recordOf(seed));
+    if (chosen.empty()) {
+        ImGui::TextDisabled("No seed is chosen");
+        return;
+    }
+    if (chosen.size() == 1)
+        ImGui::Text("Seed at %.2f, %.2f, %.2f", chosen[0].position[0], chosen[0].position[1], chosen[0].position[2]);
+    else
+        ImGui::Text("%zu seeds chosen", chosen.size());
+    // Growth is read back for it: not while a seed is on its way, nor before it has grown.
+    const bool settled = !work.underWay && work.grownRevision == work.document->revision();
+    if (chosen.size() == 1 && settled && !ImGui::IsMouseDown(0))
+        if (const auto plant = work.barren(chosen[0].key)) hint(whyBarren(work, *plant));
+    uint32_t gesture = randomNumbers(work, chosen);
+    if (const auto taken = chooseGrammar(work, "Grammar", chosen[0].grammar, "What grows from the chosen seeds")) {
+        for (SeedRecord& seed : chosen) seed.grammar = *taken;
+        gesture = work.newGesture();
+    }
+    if (gesture) work.changeSeeds({chosen}, gesture);
+    ownValues(work, chosen);
+    seedButtons(work, chosen);
+}
+
 }  // namespace
 
 void seedsPanel(Workspace& work) {
     const auto& scene = work.scene();
-    if (scene.grammars.size() > 1) {
-        rowLabel("Plant");
-        if (beginCombo("##plant", grammarName(scene, work.plantGrammar))) {
-            for (uint32_t i = 0; i < scene.grammars.size(); ++i)
-                if (ImGui::Selectable(grammarName(scene, i).c_str(), i == work.plantGrammar)) work.plantGrammar = i;
-            ImGui::EndCombo();
-        }
-        toolTip("What grows from the next seeds");
-    }
+    if (const auto taken = chooseGrammar(work, "Plant", work.plantGrammar, "What grows from the next seeds"))
+        work.plantGrammar = *taken;
     chosenSeeds(work);
     labelledSlider("Row's step", &work.layout.rowStep, kLeastRowStep, kMostRowStep, "%.2f m", true);
     toolTip("Between two seeds of a row: Ctrl and a drag plant one");

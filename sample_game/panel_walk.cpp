@@ -66,8 +66,6 @@ void plantButtons(Workspace& work, const espalier::scene::Seed* seed) {
     if (freezes && seed) work.freeze({seed->key}, !frozen);
 }
 
-}  // namespace
-
 const char* endingOf(EspBranchEnd end) {
     switch (end) {
         case ESP_END_BY_RULES:
@@ -93,8 +91,10 @@ const char* endingTip(EspBranchEnd end) {
         case ESP_END_BY_LIMIT:
             break;
     }
-    return "There may be no more of the scene's plants, or no more branches on branches";
+    return "The scene's plants may be no more, or no longer";
 }
+
+}  // namespace
 
 // All rows are always there, so that nothing moves away from under the mouse.
 void branchPanel(Workspace& work) {

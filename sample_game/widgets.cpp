@@ -88,7 +88,7 @@ bool toolTipWaits() {
 
 void tip(const char* text) {
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(tipWidth());
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + tipWidth());
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();

@@ -29,7 +29,7 @@ void Workspace::fitBrush() {
         if (size > 0)
             radius = std::clamp(std::clamp(radius, kLeast * size, kMost * size), kSmallestBrush, kLargestBrush);
     };
-    fit(brush.radius, reach());
+    if (!scene().surfaces.empty()) fit(brush.radius, reach());
     if (const auto of = town()) fit(brush.townRadius, of->layerSide);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -148,9 +149,9 @@ struct Workspace {
     // A layer that lies over the town, seen from above, and over no surface.
     bool townLayer(const std::string& name) const;
     void chooseLayer(const std::string& name);  // for the brush
-    void fitBrush();                            // one that was used in a scene of quite another size
-    void showLayer(bool seen);                  // the brush's, on the model
-    void followLayers();  // a grammar's text may have lost the one in hand, or that is seen, and gained others
+    void fitBrush();            // one that was used in a scene of quite another size: to .2 to 15 % of this one
+    void showLayer(bool seen);  // the brush's, on the model
+    void followLayers();        // a grammar's text may have lost the one in hand, or that is seen, and gained others
     float& brushRadius() { return townLayer(brush.layer) ? brush.townRadius : brush.radius; }
     float brushRadius() const { return townLayer(brush.layer) ? brush.townRadius : brush.radius; }
     // Paint that falls straight down on a town knows neither slopes nor heights.
@@ -184,8 +185,9 @@ struct Workspace {
     // Whenever the document has grown, though it be to the same plants: their seeds may have been planted anew.
     void noteGrown(bool plants);
     std::vector<EspPathSample> pathOf(uint64_t of) const;
-    // Why the last growth got no further than the seed; nothing: it did. Reads growth back, once after each.
-    std::optional<EspBranchEnd> barren(uint32_t key);
+    // What the last growth made of a seed that it got no further than; nothing: it did. Reads growth back, once after
+    // each.
+    std::optional<EspPlantInfo> barren(uint32_t key);
     void forgetBarren() { asked_ = {}; }  // keys are other seeds' from now on
     // False: `error` says why.
     bool readStats();
@@ -202,7 +204,7 @@ struct Workspace {
     uint32_t pointedAt_ = 0;      // and after how many expansions
     struct {
         uint32_t key = 0, expansions = 0;
-        std::optional<EspBranchEnd> end;
+        std::optional<EspPlantInfo> barren;
     } asked_;  // by barren()
 };
 

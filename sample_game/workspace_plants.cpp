@@ -1,6 +1,7 @@
 // Plants and their branches: picked, pruned, frozen, and asked why nothing grows.
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "sample_game/crossings.hpp"
 #include "sample_game/workspace.hpp"
@@ -100,15 +101,15 @@ void Workspace::noteGrown(bool plants) {
     if (branch && (plants || edited)) readPath();
 }
 
-std::optional<EspBranchEnd> Workspace::barren(uint32_t key) {
+std::optional<EspPlantInfo> Workspace::barren(uint32_t key) {
     const auto* seed = document->seed(key);
     if (!seed) return {};
-    if (asked_.key == key && asked_.expansions == stats.expansions) return asked_.end;
+    if (asked_.key == key && asked_.expansions == stats.expansions) return asked_.barren;
     EspPlantInfo plant{};
     asked_ = {key, stats.expansions, {}};
     const bool known = espPlantInfo(context.get(), seed->planted, &plant) == ESP_OK;
-    if (known && plant.nodes < 2) asked_.end = plant.end;  // the first stands where the seed does
-    return asked_.end;
+    if (known && plant.nodes < 2) asked_.barren = plant;  // the first stands where the seed does
+    return asked_.barren;
 }
 
 }  // namespace sample

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cassert>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -61,6 +62,13 @@ class [[nodiscard]] Result {
 
 struct Done {};
 using Status = Result<Done>;
+
+// Of steps that have all been taken, in this order: the first failure.
+inline Status allDone(std::initializer_list<Status> steps) {
+    for (const Status& step : steps)
+        if (!step) return step;
+    return Done{};
+}
 
 // What was made takes the place of what `into` holds, which stays where nothing could be made.
 template <class T, class U>

@@ -56,11 +56,11 @@ Result<BoundGrowth> BoundGrowth::create(Device& device, const Terminals& termina
                              {out.bindOrder_, "emit/bind_order.comp"},
                              {out.bindSort_, "emit/bind_sort.comp", {.constants = {{5, sortLanes(device)}}}}});
     if (!programs) return programs.failure();
-    Status made[] = {makeRoom(device, out.cells_, "emit cells", (kAllCells + 1) * sizeof(EmitCell)),
-                     makeRoom(device, out.bins_, "emit bins", kAllCells * kCellBins * 4ull),
-                     makeRoom(device, out.noTexels_, "emit no texels", 16)};
-    for (Status& s : made)
-        if (!s) return s.failure();
+    if (Status s = allDone({makeRoom(device, out.cells_, "emit cells", (kAllCells + 1) * sizeof(EmitCell)),
+                            makeRoom(device, out.bins_, "emit bins", kAllCells * kCellBins * 4ull),
+                            makeRoom(device, out.noTexels_, "emit no texels", 16)});
+        !s)
+        return s.failure();
     for (Buffer& given : out.inputs_)
         if (Status s = makeRoom(device, given, "bind inputs", sizeof(BindInputs)); !s) return s.failure();
     return out;
@@ -84,16 +84,16 @@ Result<BoundGrowth::Held> BoundGrowth::makeHeld(const GrowthView& growth, uint32
         return makeRoom(*device_, buffer, name, std::max<uint64_t>(bytes, 65536) / 16 * 16, texels);
     };
     const auto [spans, loose] = roomFor(growth, leaves);
-    Status instances[] = {make(held.spans, "span instances", spans * sizeof(SpanInstance), &held.spanTexels),
-                          make(held.leaves, "leaf instances", loose * sizeof(LeafInstance), &held.leafTexels)};
-    for (Status& s : instances)
-        if (!s) return s.failure();
+    if (Status s = allDone({make(held.spans, "span instances", spans * sizeof(SpanInstance), &held.spanTexels),
+                            make(held.leaves, "leaf instances", loose * sizeof(LeafInstance), &held.leafTexels)});
+        !s)
+        return s.failure();
     held.leafBase = uint32_t(held.spans.size() / sizeof(SpanInstance));
-    Status rest[] = {make(held.keys, "emit keys", held.numbers() * 4),
-                     make(held.leafHeads, "emit leaf heads", held.leafBase * 4ull),
-                     make(held.leafNext, "emit next leaves", held.leaves.size() / sizeof(LeafInstance) * 4)};
-    for (Status& s : rest)
-        if (!s) return s.failure();
+    if (Status s = allDone({make(held.keys, "emit keys", held.numbers() * 4),
+                            make(held.leafHeads, "emit leaf heads", held.leafBase * 4ull),
+                            make(held.leafNext, "emit next leaves", held.leaves.size() / sizeof(LeafInstance) * 4)});
+        !s)
+        return s.failure();
     return held;
 }
 
@@ -135,12 +135,9 @@ Status BoundGrowth::reserve() {
         return makeRoom(*device_, buffer, name, (bytes + 15) / 16 * 16, texels);
     };
     const uint64_t blocks = numbers / kBlockItems + 2;
-    Status rest[] = {hold(flags_, "emit flags", held_.leafBase * 4ull),
-                     hold(list_, "emit list", (numbers + kBlockItems) * 4),
-                     hold(notes_, "emit notes", blocks * kBlockItems * sizeof(DrawnItem), &noteTexels_)};
-    for (Status& s : rest)
-        if (!s) return s;
-    return Done{};
+    return allDone({hold(flags_, "emit flags", held_.leafBase * 4ull),
+                    hold(list_, "emit list", (numbers + kBlockItems) * 4),
+                    hold(notes_, "emit notes", blocks * kBlockItems * sizeof(DrawnItem), &noteTexels_)});
 }
 
 void BoundGrowth::tell(EmitPush& push) const {

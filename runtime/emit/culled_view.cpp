@@ -39,10 +39,10 @@ Result<CulledView> CulledView::create(Device& device, const Terminals& terminals
                                            {out.scan_, scanShader(device)},
                                            {out.writeDrawn_, "emit/write_drawn.comp"}});
     if (!programs) return programs.failure();
-    Status made[] = {makeRoom(device, out.state_, "emit state", sizeof(EmitState)),
-                     makeRoom(device, out.seen_, "emit seen cells", kAllCells * 8)};
-    for (Status& s : made)
-        if (!s) return s.failure();
+    if (Status s = allDone({makeRoom(device, out.state_, "emit state", sizeof(EmitState)),
+                            makeRoom(device, out.seen_, "emit seen cells", kAllCells * 8)});
+        !s)
+        return s.failure();
     for (Buffer& view : out.views_)
         if (Status s = makeRoom(device, view, "emit view", sizeof(EmitView)); !s) return s.failure();
     Result<Buffer> readback = Buffer::create(device, "emit counts", sizeof(EmitState), BufferUse::readback);

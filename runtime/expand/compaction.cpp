@@ -160,16 +160,14 @@ Status GpuGrowth::makeCopyRoom() {
     Plants& plants = plants_.spare();
     Links& links = links_.spare();
     const Links& linksNow = links_.drawn();
-    Status steps[] = {
-        makePlantRoom(plants),
-        ensure(links.chunks, "growth chunks",
-               std::max<uint64_t>(linksNow.chunks.size(), room_.chunks * uint64_t(sizeof(Chunk)))),
-        ensure(links.branches, "growth branches",
-               std::max<uint64_t>(linksNow.branches.size(), room_.branches * uint64_t(sizeof(BranchRecord)))),
-        kernels_.make({GrowthKernel::compactPlaces, GrowthKernel::compactNodes, GrowthKernel::compactLeaves}, access_)};
-    for (Status& step : steps)
-        if (!step) return step;
-    return Done{};
+    return allDone(
+        {makePlantRoom(plants),
+         ensure(links.chunks, "growth chunks",
+                std::max<uint64_t>(linksNow.chunks.size(), room_.chunks * uint64_t(sizeof(Chunk)))),
+         ensure(links.branches, "growth branches",
+                std::max<uint64_t>(linksNow.branches.size(), room_.branches * uint64_t(sizeof(BranchRecord)))),
+         kernels_.make({GrowthKernel::compactPlaces, GrowthKernel::compactNodes, GrowthKernel::compactLeaves},
+                       access_)});
 }
 
 CompactEnv GpuGrowth::compactEnvironment() const {

@@ -51,18 +51,15 @@ Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, c
     const Plants& plants = plants_.spare();
     const Links& links = links_.spare();
     const GrowthRecords& r = frozen.records;
-    Status kept[] = {commands.upload(plants.nodes, r.nodes), commands.upload(plants.leaves, r.leaves),
-                     commands.upload(links.chunks, r.chunks), commands.upload(links.branches, r.branches)};
-    for (Status& step : kept)
-        if (!step) return step;
+    if (Status s = allDone({commands.upload(plants.nodes, r.nodes), commands.upload(plants.leaves, r.leaves),
+                            commands.upload(links.chunks, r.chunks), commands.upload(links.branches, r.branches)});
+        !s)
+        return s;
     std::vector<Wave> wave(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
     wave[0] = firstWave(uint32_t(inputs.seeds.size()), room_);
-    Status steps[] = {uploadStatus(commands, inputs, withFrozen(freshStatus(inputs.limits, room_, cut), frozen)),
-                      commands.upload(waves_, wave), commands.upload(items_[0], itemsOfSeeds(inputs.seeds)),
-                      uploadTables(commands, inputs, !runsNative(inputs))};
-    for (Status& step : steps)
-        if (!step) return step;
-    return Done{};
+    return allDone({uploadStatus(commands, inputs, withFrozen(freshStatus(inputs.limits, room_, cut), frozen)),
+                    commands.upload(waves_, wave), commands.upload(items_[0], itemsOfSeeds(inputs.seeds)),
+                    uploadTables(commands, inputs, !runsNative(inputs))});
 }
 
 void GpuGrowth::recordWaves(Pass& pass, const Program& march, bool fetching, const ExpandEnv& base, uint32_t first,

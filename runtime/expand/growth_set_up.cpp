@@ -141,14 +141,11 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
 Status GpuGrowth::makeQueues(const GrowthInputs& inputs) {
     const uint64_t waves = inputs.limits.maxDepth + 2ull;
     const uint64_t items = uint64_t(room_.items) * sizeof(WorkItem);
-    Status steps[] = {ensure(items_[0], "growth items even", items), ensure(items_[1], "growth items odd", items),
-                      ensure(status_, "growth status", sizeof(GrowStatus)),
-                      ensure(waves_, "growth waves", waves * sizeof(Wave)),
-                      ensure(readback_, "growth readback",
-                             sizeof(GrowStatus) + waves * sizeof(Wave) + sizeof(AgainState), BufferUse::readback)};
-    for (Status& step : steps)
-        if (!step) return step;
-    return Done{};
+    return allDone({ensure(items_[0], "growth items even", items), ensure(items_[1], "growth items odd", items),
+                    ensure(status_, "growth status", sizeof(GrowStatus)),
+                    ensure(waves_, "growth waves", waves * sizeof(Wave)),
+                    ensure(readback_, "growth readback", sizeof(GrowStatus) + waves * sizeof(Wave) + sizeof(AgainState),
+                           BufferUse::readback)});
 }
 
 ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs, const Plants& plants, const Links& links) {
@@ -174,9 +171,10 @@ Status GpuGrowth::uploadTables(Commands& commands, const GrowthInputs& inputs, b
     tablesStand_ = false;
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     uint64_t words = 0;
-    Status steps[] = {commands.upload(grammars_, grammars), commands.upload(tables_, placeTables(inputs, words))};
-    for (Status& step : steps)
-        if (!step) return step;
+    if (Status s =
+            allDone({commands.upload(grammars_, grammars), commands.upload(tables_, placeTables(inputs, words))});
+        !s)
+        return s;
     commands.barrier(Use::transfer, Use::compute | Use::indirect);
     if (grammars.empty() || !pack) return Done{};
     Pass pass(commands, "expand tables");
@@ -254,11 +252,11 @@ Result<GrowthRecords> GpuGrowth::read() {
         values = std::move(*got);
         return Done{};
     };
-    Status steps[] = {fetch(to.nodes, plants.nodes, view_.nodeCount), fetch(to.chunks, links.chunks, view_.chunkCount),
-                      fetch(to.branches, links.branches, view_.branchCount),
-                      fetch(to.leaves, plants.leaves, view_.leafCount)};
-    for (Status& step : steps)
-        if (!step) return step.failure();
+    if (Status s = allDone(
+            {fetch(to.nodes, plants.nodes, view_.nodeCount), fetch(to.chunks, links.chunks, view_.chunkCount),
+             fetch(to.branches, links.branches, view_.branchCount), fetch(to.leaves, plants.leaves, view_.leafCount)});
+        !s)
+        return s.failure();
     compactRecords(to);
     return to;
 }

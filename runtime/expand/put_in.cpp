@@ -33,11 +33,11 @@ Result<bool> GpuGrowth::putIn(const GrowthInputs& inputs) {
         if (records.size() * size > buffer.size() - std::min(buffer.size(), at)) fits = false;
         return fits ? commands->upload(buffer, records, at) : Status(Done{});
     };
-    Status added[] = {add(plants.nodes, r.nodes, view_.nodeCount), add(plants.leaves, r.leaves, view_.leafCount),
-                      add(links.chunks, r.chunks, view_.chunkCount),
-                      add(links.branches, r.branches, view_.branchCount)};
-    for (Status& step : added)
-        if (!step) return step.failure();
+    if (Status s = allDone({add(plants.nodes, r.nodes, view_.nodeCount), add(plants.leaves, r.leaves, view_.leafCount),
+                            add(links.chunks, r.chunks, view_.chunkCount),
+                            add(links.branches, r.branches, view_.branchCount)});
+        !s)
+        return s.failure();
     if (!fits) return false;
     if (Status finished = commands->finish(); !finished) return finished.failure();
 

@@ -130,11 +130,11 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     std::vector<Wave> waves(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
     waves[0].count = waves[0].announced = uint32_t(items.size());
     waves[0].groups[0] = groupsOf(waves[0].count, kItemsPerGroupAgain);
-    Status steps[] = {uploadStatus(commands, inputs, s), commands.upload(again_, state),
-                      commands.upload(edits_, std::as_bytes(edits)), commands.upload(waves_, waves),
-                      commands.upload(items_[0], items)};
-    for (Status& step : steps)
-        if (!step) return step;
+    if (Status sent = allDone({uploadStatus(commands, inputs, s), commands.upload(again_, state),
+                               commands.upload(edits_, std::as_bytes(edits)), commands.upload(waves_, waves),
+                               commands.upload(items_[0], items)});
+        !sent)
+        return sent;
     // Packed tables change with parameters, grammars and where their words lie.
     const std::vector<RuleMapRef>& maps = origin_.maps;
     const std::vector<float>& widths = origin_.widths;

@@ -59,7 +59,7 @@ class TexelView {
 Status makeTexels(Device& device, std::string_view name, uint64_t sizeBytes, VkFormat format, Buffer& buffer,
                   TexelView& texels);
 
-// Has so many bytes, or is made anew, without what was in it. On failure it stays as it was.
+// Has at least so many bytes, or is made anew for `use`, without what was in it. On failure it stays as it was.
 Status makeAtLeast(Device& device, Buffer& buffer, std::string_view name, uint64_t sizeBytes,
                    BufferUse use = BufferUse::device);
 

@@ -1,11 +1,12 @@
 // Plants that have grown: picking a branch, showing its way over the charts, cutting it away for good.
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/errors.hpp"
 #include "runtime/plugin/given.hpp"
 #include "runtime/plugin/seeds.hpp"
+#include "runtime/plugin/surface_contacts.hpp"
 #include "runtime/plugin/surface_point.hpp"
 
 namespace espalier {
@@ -24,6 +25,9 @@ const Plants* readPlants(EspContext& context) {
 }
 
 namespace {
+
+static_assert(int(BranchEnd::byRules) == ESP_END_BY_RULES && int(BranchEnd::refused) == ESP_END_REFUSED &&
+              int(BranchEnd::noGround) == ESP_END_NO_GROUND && int(BranchEnd::byLimit) == ESP_END_BY_LIMIT);
 
 EspSeed seedOf(const EspContext& context, const Plants& plants, uint32_t branch) {
     const uint32_t seed = plants.seedOf(branch);
@@ -88,8 +92,11 @@ EspResult plantInfo(EspContext& context, uint32_t id, const PlantedSeed& seed, E
     const Plants* plants = readPlants(context);
     if (!plants) return gpuCode(context);
     PlantExtent extent;
-    for (uint32_t i = 0; i < context.grownSeeds.size(); ++i)
-        if (context.grownSeeds[i] == id) extent = plants->extentOf(i);
+    const auto grown = std::ranges::find(context.grownSeeds, id);
+    if (grown != context.grownSeeds.end())
+        extent = plants->extentOf(uint32_t(grown - context.grownSeeds.begin()));
+    else if (seed.onBare || buriedByOthers(context, seed))
+        extent.end = BranchEnd::noGround;
     if (extent.nodes == 0) extent.low = extent.high = seed.position;
     out->nodes = extent.nodes;
     out->end = EspBranchEnd(extent.end);

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "runtime/plugin/context.hpp"
-#include "runtime/plugin/errors.hpp"
 #include "runtime/plugin/given.hpp"
 #include "runtime/plugin/painting.hpp"
 

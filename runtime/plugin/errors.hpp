@@ -11,8 +11,10 @@
 
 namespace espalier {
 
+// Logs the message and keeps it for espLastError; returns the code. context: not null, here and below.
 EspResult fail(const EspContext* context, EspResult code, std::string message);
 constexpr const char* kNoMemory = "out of memory";  // short enough to take none
+// Likewise a file's mistakes, as INVALID_CONTENT.
 EspResult failContent(const EspContext* context, const Failure& failure);
 // For failures of GPU work: DEVICE_LOST or OUT_OF_MEMORY, as the device says.
 EspResult gpuCode(const EspContext& context);

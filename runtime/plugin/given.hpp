@@ -1,6 +1,7 @@
 #pragma once
 
-// What hosts give and are given: vectors as arrays, numbers that may be anything.
+// What hosts give and are given: vectors as arrays, numbers that may be anything. Pointers aren't null unless it is
+// said.
 
 #include <cmath>
 #include <cstring>
@@ -17,7 +18,7 @@ inline void put(float to[3], glm::vec3 from) {
 inline bool finite(const float v[3]) {
     return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
 }
-// Two pointers to what is a ray: of any length but 0.
+// A ray: its direction of any length but 0. Either may be null: then it is none.
 inline bool isRay(const float* origin, const float* direction) {
     return origin && direction && finite(origin) && finite(direction) && vec(direction) != glm::vec3(0);
 }

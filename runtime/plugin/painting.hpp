@@ -1,6 +1,6 @@
 #pragma once
 
-// Brushes and painted layers.
+// Brushes (brush.cpp) and painted layers (api_layers.cpp; replaceLayer: api_paint.cpp).
 
 #include <optional>
 #include <span>
@@ -12,6 +12,7 @@ namespace espalier {
 
 // What is wrong with a brush; null: nothing.
 const char* mistakeIn(const EspBrush& brush);
+// To slopes and heights.
 BrushLimits limitsOf(const EspBrush& brush);
 // The numbers by which a kernel applies the brush; `fill` is the layer's.
 BrushRecord recordOf(const EspBrush& brush, float fill);
@@ -20,6 +21,7 @@ BrushRecord recordOf(const EspBrush& brush, float fill);
 // any more and that isn't among `kept` where there are kMaxLayers already. Nothing: all of those are read.
 std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill,
                                    std::span<const uint32_t> kept = {}, uint32_t without = 0);
+// Until a layer comes or goes; null: the surface isn't painted with it.
 PaintedLayer* paintedLayer(EspContext& context, uint32_t surface, const std::string& name);
 // What the first grammar that declares the layer fills it with; nothing if none does.
 std::optional<float> declaredFill(const EspContext& context, const std::string& name);

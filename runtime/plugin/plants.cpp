@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "runtime/core/jobs.hpp"
 
@@ -29,7 +30,7 @@ Approach approach(glm::vec3 origin, glm::vec3 direction, glm::vec3 a, glm::vec3 
 BranchEnd endBy(uint32_t marks) {
     if (marks & kChunkStopped) return BranchEnd::byLimit;
     if (!(marks & kChunkDeadEnd)) return BranchEnd::byRules;
-    return marks & kChunkBeyond ? BranchEnd::refused : BranchEnd::noGround;
+    return marks & kChunkTurnedBack ? BranchEnd::refused : BranchEnd::noGround;
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ BranchEnd Plants::endOf(uint32_t branch) const {
 // Seeds whose only chunk is without nodes: they have found no ground, or are pruned.
 void Plants::noteBare() {
     for (const Chunk& chunk : records_.chunks) {
-        if (chunk.marks == 0 || chunk.parent != kNoIndex || chunk.branch != kNoIndex) continue;
+        if (chunk.parent != kNoIndex || chunk.branch != kNoIndex) continue;
         if (chunk.firstNode >= extents_.size()) extents_.resize(chunk.firstNode + 1);
         extents_[chunk.firstNode].end = endBy(chunk.marks);
     }

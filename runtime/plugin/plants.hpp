@@ -25,7 +25,7 @@ enum class BranchEnd { byRules, refused, noGround, byLimit };
 // How many nodes a plant has, the box around them in the world, and how the seed's own branch ends.
 struct PlantExtent {
     uint32_t nodes = 0;
-    BranchEnd end = BranchEnd::byLimit;
+    BranchEnd end = BranchEnd::byLimit;  // of a seed that has left no chunk
     glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
 };
 
@@ -45,7 +45,7 @@ class Plants {
     uint64_t keyOf(uint32_t branch) const { return firstChunk(branch).key; }
     uint32_t seedOf(uint32_t branch) const { return records_.branches[branch].seed; }
     uint32_t depthOf(uint32_t branch) const { return firstChunk(branch).depth & 0xFFFFu; }
-    BranchEnd endOf(uint32_t branch) const;
+    BranchEnd endOf(uint32_t branch) const;  // by its last chunk
     // The branch that it leaves from; nothing: it is a seed's own.
     std::optional<uint32_t> parentOf(uint32_t branch) const;
     // Its nodes in order, beginning with the one that it leaves from, if any.

@@ -1,6 +1,6 @@
 #pragma once
 
-// Seeds, their plants and the grammars that these grow by.
+// Seeds (api_seeds.cpp), their plants (api_plants.cpp) and the grammars that these grow by (grammar_variants.cpp).
 
 #include <span>
 

@@ -1,12 +1,12 @@
 // Enters: what a brush reaches, strokes that have ended. Leaves: the layers that they need, what the painter is to do,
 // what growth has to hear of it.
 #include "runtime/plugin/strokes.hpp"
-#include "runtime/plugin/errors.hpp"
-#include "runtime/plugin/painting.hpp"
 
 #include <algorithm>
 
 #include "runtime/core/undo.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/painting.hpp"
 
 namespace espalier {
 namespace {

@@ -1,12 +1,13 @@
 // Placed surfaces -> crossings between those that touch, and the ground that they bury of each other. A pair is looked
 // at again only when one of the two, or a third that reaches between them, has moved.
+#include "runtime/plugin/surface_contacts.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cstring>
 
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/given.hpp"
-#include "runtime/plugin/surface_contacts.hpp"
 #include "runtime/plugin/surface_point.hpp"
 
 namespace espalier {

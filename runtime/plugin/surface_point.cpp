@@ -1,13 +1,14 @@
 // Rays and points in the world -> a place on a surface that a walk can start from.
 // The mesh tells position and walk UV; the chart is the one whose texel lies under that UV, or next to it where the
 // centre of that texel is outside of the triangle.
+#include "runtime/plugin/surface_point.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/errors.hpp"
 #include "runtime/plugin/given.hpp"
-#include "runtime/plugin/surface_point.hpp"
 
 namespace espalier {
 namespace {

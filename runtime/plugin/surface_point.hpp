@@ -1,6 +1,6 @@
 #pragma once
 
-// Points of the surfaces.
+// Points of the surfaces, in the world.
 
 #include <cmath>
 #include <glm/glm.hpp>
@@ -26,12 +26,14 @@ struct SurfacePoint {
     uint32_t chart = 0;
     glm::vec2 uv{0};
     glm::vec3 position{0}, normal{0};  // world; the triangle's own normal
-    float distance = 0;
-    bool bare = false;  // nothing grows there
+    float distance = 0;                // metres, from the ray's origin or the point that was asked for
+    bool bare = false;                 // nothing grows there
 };
 // v: of any length but 0, though its square be more, or less, than a float holds.
 glm::vec3 unitOf(glm::vec3 v);
+// What the ray meets first; nothing: no surface. direction: unit.
 std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction);
+// Bare or not; nothing: no surface has any.
 std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point);
 const char* whyNoneNear(const EspContext& context);  // for messages, where there is no nearest
 // About the nearest ground around a place on bare ground that is seen by who looks straight at it: not what lies behind

@@ -1,6 +1,6 @@
 #pragma once
 
-// The roofs of the town.
+// The roofs of the town (api_roof.cpp), their layers (town_layers.cpp) and triangles (town_triangles.cpp).
 
 #include <cstddef>
 #include <string>

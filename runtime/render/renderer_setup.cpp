@@ -58,17 +58,14 @@ Status RendererImpl::makePrograms() {
         desc.colors = {format};
         return assign(program, Program::graphics(device_, desc));
     };
-    const Status all[] = {
-        shadow(modelDepth_, "model shadow", "render/model_depth.vert", ""),
-        shadow(modelCutDepth_, "cut model shadow", "render/model_cut_depth.vert", "render/model_shadow.frag"),
-        shadow(barkDepth_, "bark shadow", "render/bark.vert", ""),
-        shadow(leafDepth_, "leaf shadow", "render/leaf.vert", ""),
-        shadow(leafCutDepth_, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag"),
-        post(distance_, one ? "render/depth_single.frag" : "render/depth.frag", kDistanceFormat),
-        post(occlusion_, "render/occlusion.frag", kOpenFormat)};
-    for (const Status& s : all)
-        if (!s) return s;
-    return Done{};
+    return allDone(
+        {shadow(modelDepth_, "model shadow", "render/model_depth.vert", ""),
+         shadow(modelCutDepth_, "cut model shadow", "render/model_cut_depth.vert", "render/model_shadow.frag"),
+         shadow(barkDepth_, "bark shadow", "render/bark.vert", ""),
+         shadow(leafDepth_, "leaf shadow", "render/leaf.vert", ""),
+         shadow(leafCutDepth_, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag"),
+         post(distance_, one ? "render/depth_single.frag" : "render/depth.frag", kDistanceFormat),
+         post(occlusion_, "render/occlusion.frag", kOpenFormat)});
 }
 
 Status RendererImpl::makeSceneProgram(Program& program, const char* name, const char* vertex, const char* fragment,

@@ -148,11 +148,11 @@ Status RoofDraw::cull(Commands& commands, const RoofView& roofs, const EmitView&
     Pass pass(commands, passName);
     pass.barrier(Use::compute | Use::vertex | Use::fragment | Use::indirect | Use::transfer,
                  Use::transfer | Use::compute);
-    Status uploads[] = {commands.upload(views_, std::as_bytes(std::span(&view, 1)), slot * sizeof(EmitView)),
-                        commands.upload(envs_, std::as_bytes(std::span(&env, 1)), slot * sizeof(RoofDrawEnv)),
-                        commands.upload(state_, std::as_bytes(std::span(&fresh, 1)))};
-    for (Status& s : uploads)
-        if (!s) return s;
+    if (Status s = allDone({commands.upload(views_, std::as_bytes(std::span(&view, 1)), slot * sizeof(EmitView)),
+                            commands.upload(envs_, std::as_bytes(std::span(&env, 1)), slot * sizeof(RoofDrawEnv)),
+                            commands.upload(state_, std::as_bytes(std::span(&fresh, 1)))});
+        !s)
+        return s;
     pass.barrier(Use::transfer, Use::compute | Use::vertex | Use::fragment);
     RoofCullPush push{};
     push.env = addressOf<RoofDrawEnvBuf>(envs_, slot * sizeof(RoofDrawEnv));

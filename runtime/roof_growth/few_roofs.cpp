@@ -69,15 +69,15 @@ Result<GpuRoofs::Outcome> GpuRoofs::growFew(const RoofInputs& inputs, std::span<
     if (!commands) return commands.failure();
     commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
     const auto generations = std::as_bytes(std::span(generationOf_));
-    Status steps[] = {uploadTables(*commands, *inputs.town, set),
-                      uploadLayers(*commands, inputs, set),
-                      commands->upload(set.grids, made.records.grids, last_.grids * sizeof(RoofGrid)),
-                      commands->upload(set.runs, made.records.runs, last_.rows * sizeof(RoofRun)),
-                      commands->upload(set.regions.buffer, made.records.regions, last_.regions * sizeof(RoofRegion)),
-                      commands->upload(set.parts.buffer, made.records.parts, last_.parts * sizeof(RoofPart)),
-                      commands->upload(set.planes.buffer, made.records.planes, last_.planes * sizeof(vec4))};
-    for (Status& step : steps)
-        if (!step) return step.failure();
+    if (Status sent =
+            allDone({uploadTables(*commands, *inputs.town, set), uploadLayers(*commands, inputs, set),
+                     commands->upload(set.grids, made.records.grids, last_.grids * sizeof(RoofGrid)),
+                     commands->upload(set.runs, made.records.runs, last_.rows * sizeof(RoofRun)),
+                     commands->upload(set.regions.buffer, made.records.regions, last_.regions * sizeof(RoofRegion)),
+                     commands->upload(set.parts.buffer, made.records.parts, last_.parts * sizeof(RoofPart)),
+                     commands->upload(set.planes.buffer, made.records.planes, last_.planes * sizeof(vec4))});
+        !sent)
+        return sent.failure();
     for (uint32_t house : houses)
         if (Status sent = commands->upload(set.generations, generations.subspan(house * 4, 4), house * 4); !sent)
             return sent.failure();

@@ -134,11 +134,11 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, s
     queues.fill({0, {0, 1, 1}});
     queues[0] = {startCount_, {(startCount_ + kRoofGroup - 1) / kRoofGroup, 1, 1}};
     const RoofEnv env = environment(inputs, set);
-    Status steps[] = {commands->upload(waves_, std::as_bytes(std::span(queues))),
-                      commands->upload(status_, std::as_bytes(std::span(&status, 1))),
-                      commands->upload(env_, std::as_bytes(std::span(&env, 1)))};
-    for (Status& s : steps)
-        if (!s) return s.failure();
+    if (Status s = allDone({commands->upload(waves_, std::as_bytes(std::span(queues))),
+                            commands->upload(status_, std::as_bytes(std::span(&status, 1))),
+                            commands->upload(env_, std::as_bytes(std::span(&env, 1)))});
+        !s)
+        return s.failure();
     commands->barrier(Use::transfer, Use::compute | Use::indirect);
     const bool fetches = mayFetch(inputs, set);
     if (Status s = makeKernels(*inputs.grammar, fetches); !s) return s.failure();
@@ -360,12 +360,12 @@ Result<RoofRecords> GpuRoofs::read() {
         values = std::move(*got);
         return Done{};
     };
-    Status steps[] = {fetch(to.grids, set.grids, last_.grids), fetch(to.runs, set.runs, last_.rows),
-                      fetch(to.regions, set.regions.buffer, last_.regions),
-                      fetch(to.parts, set.parts.buffer, last_.parts),
-                      fetch(to.planes, set.planes.buffer, last_.planes)};
-    for (Status& s : steps)
-        if (!s) return s.failure();
+    if (Status s = allDone({fetch(to.grids, set.grids, last_.grids), fetch(to.runs, set.runs, last_.rows),
+                            fetch(to.regions, set.regions.buffer, last_.regions),
+                            fetch(to.parts, set.parts.buffer, last_.parts),
+                            fetch(to.planes, set.planes.buffer, last_.planes)});
+        !s)
+        return s.failure();
     to.generations = generationOf_;
     return to;
 }

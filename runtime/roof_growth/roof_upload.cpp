@@ -93,11 +93,8 @@ Status GpuRoofs::uploadTables(Commands& commands, const RoofTables& t, Set& set)
         if (begin >= all.size()) return Done{};
         return commands.upload(to.buffer, std::as_bytes(std::span(all).subspan(begin)), begin * sizeof(all[0]));
     };
-    Status steps[] = {send(atoms_, t.atoms), send(pieces_, t.pieces), send(set.regions, t.regions),
-                      send(set.parts, t.parts), send(set.planes, t.planes)};
-    for (Status& s : steps)
-        if (!s) return s;
-    return Done{};
+    return allDone({send(atoms_, t.atoms), send(pieces_, t.pieces), send(set.regions, t.regions),
+                    send(set.parts, t.parts), send(set.planes, t.planes)});
 }
 
 // The atoms of the first wave. houses: that grow, none: all.

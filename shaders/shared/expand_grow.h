@@ -130,6 +130,7 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower
     c.step = (item.step & 0xFFFFFFu) | ((g.refused < 255u ? g.refused : 255u) << 24u);
     uint flags = kChunkPublished | (g.reads.beyond ? kChunkBeyond : 0u);
     flags = flags | (g.phase == kPhaseDead ? kChunkDeadEnd : 0u) | (g.phase == kPhaseStopped ? kChunkStopped : 0u);
+    flags = flags | (g.phase == kPhaseDead && g.turnedBack ? kChunkTurnedBack : 0u);
     c.marks = (site.sceneLayers << 16u) | (g.count << 8u) | flags;
     c.uses = g.reads.uses;
     c.firstChild = kNoIndex;
@@ -211,6 +212,7 @@ FN Grower freshGrower(WorkItem item) {
     g.angle = 0.0f;
     g.remaining = 0.0f;
     g.attempt = 0u;
+    g.turnedBack = false;
     g.fresh = true;
     g.arrived = false;
     g.placed = false;

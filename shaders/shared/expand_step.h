@@ -84,6 +84,7 @@ struct Grower {
     uint conditionSlots, conditionValue;   // slots: of the condition, from bit 8 on of its blind part, plus 1
     float distance, angle, remaining;
     uint attempt;        // 0: the heading as the rule turned it, then detours
+    bool turnedBack;     // of one of them the condition didn't hold for where it led
     bool fresh;          // the attempt has not left yet
     bool arrived;        // it has reached its end: the condition is to be asked there
     bool placed;         // the machine knows the place where `trial` stands
@@ -204,6 +205,7 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
     g.conditionValue = TABLE(at + 7u);
     g.reads.uses = g.reads.uses | TABLE(at + 8u);
     g.attempt = 0u;
+    g.turnedBack = false;
     g.fresh = true;
     g.phase = (head & 3u) == kRuleMarch ? kPhaseMarch : kPhaseEnded;
 
@@ -349,6 +351,7 @@ FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, INO
         uint part = g.conditionSlots >> 8u;
         bool blind = (g.rule & kRuleBlind) != 0u || (part != 0u && !holds(SLOT(part - 1u)));
         g.reads.beyond = g.reads.beyond || !blind;
+        g.turnedBack = g.turnedBack || !blind;
         g.phase = blind ? kPhaseEnded : g.attempt >= kDetours ? kPhaseDead : kPhaseMarch;
         g.attempt = g.attempt + 1u;
         g.fresh = true;

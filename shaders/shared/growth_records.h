@@ -105,11 +105,13 @@ struct BranchRecord {
 };
 STATIC_SIZE(BranchRecord, 16);
 
-// Chunk::marks: bits 31..16 layers that were read, 15..8 number of nodes, 7..0 flags; 0: there is no such chunk any more
+// Chunk::marks: bits 31..16 layers that were read, 15..8 number of nodes, 7..0 flags, of which 2 and 4 may be set in
+// plants that were frozen long ago; 0: there is no such chunk any more
 CONST_UINT(kChunkPublished, 1u);
-CONST_UINT(kChunkStopped, 8u);      // a derivation or recursion limit ended it (counted in the stats)
-CONST_UINT(kChunkDeadEnd, 16u);     // no direction that its condition allows
+CONST_UINT(kChunkStopped, 8u);      // a limit ended it (counted in the stats)
+CONST_UINT(kChunkDeadEnd, 16u);     // its ground isn't there, or no direction served
 CONST_UINT(kChunkBeyond, 32u);      // it read at places that are none of its nodes': directions that failed
+CONST_UINT(kChunkTurnedBack, 64u);  // a dead end where of some direction the condition didn't hold
 
 // The read set: where the chunk read layers, failed directions and terminals included. kReadTiles tiles, which cover
 // the walk's UV by kLayerTiles >> level along either side.

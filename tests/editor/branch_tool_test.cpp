@@ -68,6 +68,8 @@ TEST_CASE("a branch of a frozen plant isn't pruned before it is thawed, and that
         });
     };
     pruner.click(pruner.someBranch().first);
+    pruner.frame({});
+    CHECK_MESSAGE(contains(words, "Ends"), words);
     REQUIRE(work.branchSeed());
     const uint32_t key = work.branchSeed()->key;
     work.freeze({key}, true);
@@ -88,6 +90,9 @@ TEST_CASE("a branch of a frozen plant isn't pruned before it is thawed, and that
     ImGui::GetIO().DeltaTime = .3f;
     for (int i = 0; i < 4; ++i) pruner.frame({});
     CHECK_MESSAGE(contains(words, "thaw it to prune"), words);
+    const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
+    REQUIRE((tip && tip->WasActive));
+    CHECK(tip->Pos.x >= work.panelUnits());  // it covers nothing of the panel
 
     work.freeze({key}, false);
     pruner.key(GLFW_KEY_DELETE);
@@ -165,4 +170,38 @@ TEST_CASE("all that was pruned grows again by one step, which is called so") {
     CHECK(std::string(work.document->undoName()) == "Let all grow again");
     pruner.undo();
     CHECK(espPrunedCount(work.context.get()) == 2);
+}
+
+TEST_CASE("of a seed whose plant is pruned the panel says so, and nothing once it grows again") {
+    const Folder folder;
+    Pruner pruner(folder);
+    auto& work = pruner.work;
+    std::string words;
+    pruner.panels = [&] {
+        words = wordsOf([&] {
+            ImGui::Begin("panel");
+            sample::seedsPanel(work);
+            ImGui::End();
+        });
+    };
+    const uint32_t seed = work.scene().seeds[0].key;
+    const auto grown = [&] {
+        REQUIRE(espUpdate(work.context.get()) == ESP_OK);
+        REQUIRE(work.readStats());
+        work.grownRevision = work.document->revision();
+        for (int i = 0; i < 2; ++i) pruner.frame({});
+    };
+    const auto [at, branch] = pruner.someBranch();
+    pruner.click(at);
+    while (work.branchInfo.depth > 0) work.pickParent();
+    work.choose(Tool::seeds);
+    work.selected = {seed};
+    grown();
+    CHECK_MESSAGE(!contains(words, "Nothing grows"), words);
+    work.prune();
+    grown();
+    CHECK_MESSAGE(contains(words, "it is pruned"), words);
+    REQUIRE(work.perform(espalier::document::Undo{}));
+    grown();
+    CHECK_MESSAGE(!contains(words, "Nothing grows"), words);
 }

@@ -113,7 +113,7 @@ TEST_CASE("a picture of another size or kind is taken in, and the user is told w
     const GreyPicture odd{2, 2, {0, -3, 7, 1e30f}};
     REQUIRE_MESSAGE(espalier::scene::writeGrey(folder.file("odd.exr"), odd, error), error);
     REQUIRE_MESSAGE(import(editing, folder.file("odd.exr"), note), editing.error);
-    CHECK_MESSAGE(contains(note, "with 3 values limited to 0 to 1"), note);
+    CHECK_MESSAGE(contains(note, "3 values limited to 0 to 1"), note);
     for (const float value : layerOf(editing)) REQUIRE((value >= 0 && value <= 1));
 }
 

@@ -213,9 +213,9 @@ TEST_CASE("a layer is hatched where the brush's limits let no paint pass, and no
 }
 
 TEST_CASE("a label's names for values are read out of it, and what else it says is a note") {
-    using espalier::scene::wordsOf;
+    using espalier::scene::labelWords;
     const auto words =
-        wordsOf("Wall height: 0 half, 0.5 as it is, 1 half as high again, of the whole house, all of it");
+        labelWords("Wall height: 0 half, 0.5 as it is, 1 half as high again, of the whole house, all of it");
     const auto& names = words.values;
     REQUIRE(names.size() == 3);
     CHECK(names[0].value == 0);
@@ -224,10 +224,10 @@ TEST_CASE("a label's names for values are read out of it, and what else it says 
     CHECK(names[1].name == "as it is");
     CHECK(names[2].name == "half as high again");
     CHECK(words.note == "of the whole house, all of it");
-    for (const char* none : {"", "Moss", "Moss, 0 none", "Odd:", "Odd: "}) {
-        CHECK_MESSAGE(wordsOf(none).values.empty(), none);
-        CHECK_MESSAGE(wordsOf(none).note.empty(), none);
+    for (const char* none : {"", "Moss", "Moss, 0 none", "Odd:", "Odd: ", "Ratio 1:1"}) {
+        CHECK_MESSAGE(labelWords(none).values.empty(), none);
+        CHECK_MESSAGE(labelWords(none).note.empty(), none);
     }
-    CHECK(wordsOf("Odd: 2 much, -1 little, 0").values.empty());
-    CHECK(wordsOf("Tint: white as they come").note == "white as they come");
+    CHECK(labelWords("Odd: 2 much, -1 little, 0").values.empty());
+    CHECK(labelWords("Tint: white as they come").note == "white as they come");
 }

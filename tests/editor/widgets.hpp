@@ -3,6 +3,7 @@
 #include <imgui_internal.h>
 
 #include <cstdio>
+#include <functional>
 #include <string>
 #include <vector>
 

@@ -124,7 +124,13 @@ TEST_CASE("a plant that another surface swallows whole, without a contact, is go
     const EspTransform away = placed({10, 0, 0}), around = placed({.1f, .2f, 0}, 2);
     EspSurface second{};
     painting.ok(espLoadSurface(painting.context, painting.path.c_str(), &away, &second));
-    painting.plant(grammar, kFoot, kUp);
+    const EspSeed seed = painting.plant(grammar, kFoot, kUp);
+    const auto end = [&] {
+        EspPlantInfo info{};
+        painting.ok(espPlantInfo(painting.context, seed, &info));
+        return info.end;
+    };
+    CHECK(end() == ESP_END_BY_LIMIT);  // it hasn't grown yet
     const EspStats before = painting.grown();
     REQUIRE(before.nodes > 0);
     for (int times = 0; times < 2; ++times) {
@@ -132,7 +138,9 @@ TEST_CASE("a plant that another surface swallows whole, without a contact, is go
         const EspStats swallowed = painting.grown();
         CHECK(swallowed.contacts == 0);
         CHECK(swallowed.nodes == 0);
+        CHECK(end() == ESP_END_NO_GROUND);
         painting.ok(espMoveSurface(painting.context, second, &away));
         CHECK(painting.grown().hash == before.hash);
+        CHECK(end() == ESP_END_BY_RULES);
     }
 }

@@ -434,8 +434,8 @@ TEST_CASE("a text that changes a rule lets what didn't use it stand, also where 
 TEST_CASE("a branch tells why it goes no further: its rules, its condition, the end of the ground, a limit") {
     Painting painting(openQuad(4));
     const EspGrammar grammar = painting.grammar(
-        "context mask = 1\nparam stride = 0.05 [0.01 .. 2]\n"
-        "Stem : step >= 5 -> NULL\n"
+        "context mask = 1\nparam stride = 0.05 [0.01 .. 2]\nparam most = 5 [1 .. 1000]\n"
+        "Stem : step >= most -> NULL\n"
         "Stem -> Marching(stride, 0, mask(texCoord) > 0.5) {Stem, Wood}\n"
         "Wood -> S(0.01) Shape(\"bark\", C1)\n");
     const EspSeed seed = painting.plant(grammar, {.5f, .05f, 0}, kUp);
@@ -445,15 +445,18 @@ TEST_CASE("a branch tells why it goes no further: its rules, its condition, the 
         painting.ok(espPlantInfo(painting.context, seed, &info));
         return info;
     };
-    const auto limit = [&](uint64_t nodes) {
+    const auto limit = [&](uint32_t nodes, uint32_t depth) {
         EspGrowDef grow = espDefaultGrowDef();
         grow.maxNodes = nodes;
+        grow.maxDepth = depth;
         painting.ok(espSetGrow(painting.context, &grow));
+    };
+    const auto set = [&](const char* name, float value) {
+        painting.ok(espSetParam(painting.context, grammar, name, &value, 1));
     };
     CHECK(plant().end == ESP_END_BY_RULES);
     // No step of this length leads anywhere within the square but the first.
-    const float stride = .9f;
-    painting.ok(espSetParam(painting.context, grammar, "stride", &stride, 1));
+    set("stride", .9f);
     CHECK(plant().end == ESP_END_NO_GROUND);
     CHECK(plant().nodes == 2);
     EspPlantHit hit{};
@@ -461,16 +464,53 @@ TEST_CASE("a branch tells why it goes no further: its rules, its condition, the 
     EspBranchInfo info{};
     painting.ok(espBranchInfo(painting.context, hit.branch, &info));
     CHECK(info.end == ESP_END_NO_GROUND);
+    painting.ok(espFreezePlant(painting.context, seed, 1));
     EspStroke emptied{};
     painting.ok(espFillLayer(painting.context, "mask", 0, &emptied));
+    CHECK(plant().end == ESP_END_NO_GROUND);  // as it was frozen
+    painting.ok(espFreezePlant(painting.context, seed, 0));
     CHECK(plant().end == ESP_END_REFUSED);
     CHECK(plant().nodes == 1);
     painting.ok(espFillLayer(painting.context, "mask", 1, &emptied));
-    limit(1);
+    // A limit that leaves nothing of it, and one that ends it in the middle, after more nodes than a chunk has.
+    limit(1, 1000);
     CHECK(plant().end == ESP_END_BY_LIMIT);
     CHECK(plant().nodes == 0);
-    limit(1000);
+    set("stride", .01f);
+    set("most", 80);
+    limit(1000, 2);
+    CHECK(plant().end == ESP_END_BY_LIMIT);
+    CHECK(plant().nodes > 32);
+    CHECK(plant().nodes < 80);
+    limit(1000, 1000);
+    CHECK(plant().end == ESP_END_BY_RULES);
+    CHECK(plant().nodes == 81);
     painting.ok(espPruneBranch(painting.context, hit.branch, 1));
     CHECK(plant().end == ESP_END_BY_RULES);
     CHECK(plant().nodes == 0);
+}
+
+TEST_CASE("where no ground is ahead a branch says so, though a condition has turned it aside before") {
+    Painting painting(openQuad(4));
+    // Aside at once, since what is straight ahead isn't painted; then on to the border by steps of half the square.
+    const EspGrammar grammar = painting.grammar(
+        "context mask = 1\n"
+        "Stem : step < 1 -> Marching(0.1, 0, mask(texCoord) > 0.5) {Stem, Wood}\n"
+        "Stem : step < 2 -> Marching(0.9, 0, true) {Stem, Wood}\n"
+        "Wood -> S(0.01) Shape(\"bark\", C1)\n");
+    const EspSeed seed = painting.plant(grammar, {.5f, .5f, 0}, kUp);
+    const EspBrush erase = [] {
+        EspBrush brush = brushOn("mask", .04f, 1, 1);
+        brush.value = 0;
+        return brush;
+    }();
+    EspDab dab{};
+    dab.position[0] = .5f, dab.position[1] = .6f, dab.normal[2] = 1, dab.pressure = 1;
+    (void)painting.stroke(erase, {dab});
+    (void)painting.grown();
+    EspPlantInfo plant{};
+    painting.ok(espPlantInfo(painting.context, seed, &plant));
+    CHECK(plant.nodes == 2);
+    CHECK(std::abs(plant.boundsMax[0] - plant.boundsMin[0]) > .02f);  // it went aside
+    CHECK(plant.end == ESP_END_NO_GROUND);
 }

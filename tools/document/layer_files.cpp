@@ -70,8 +70,8 @@ std::string describe(const Imported& p, uint32_t side) {
     if (p.shape.channels > 2 && p.picture->size() == 1)
         text += std::string(text.empty() ? "" : "; ") + "of its colours the red";
     if (const uint64_t limited = p.picture->front().limited)
-        text += std::string(text.empty() ? "" : "; ") + "with " + std::to_string(limited) + " values limited to 0 to 1";
-    return text.empty() ? text : name + " is " + text;
+        text += std::string(text.empty() ? "" : "; ") + std::to_string(limited) + " values limited to 0 to 1";
+    return text.empty() ? text : name + ": " + text;
 }
 
 bool readPictures(std::vector<Imported>& pictures, bool colour, Progress& progress, std::string& error) {

@@ -199,7 +199,7 @@ bool layLayer(EspContext* context, Scene& scene, const SceneLayer& layer, Carryi
     const bool colour = !scene.project && isColour(scene, layer.name);
     if (!readChannels(layer.file, colour, pictures, error)) return false;
     if (const uint64_t limited = pictures.front().limited)
-        scene.notes.push_back(layer.file + ": " + std::to_string(limited) + " values are limited to 0 to 1");
+        scene.notes.push_back(layer.file + ": values limited to 0 to 1: " + std::to_string(limited));
     const std::vector<std::string> channels = colour ? channelsOf(scene, layer.name) : std::vector{layer.name};
     for (size_t c = 0; c < channels.size(); ++c) {
         std::string note;

@@ -2,6 +2,7 @@
 #include "tools/scene/json_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <vector>
 
@@ -24,7 +25,7 @@ bool readJsonFile(const std::string& path, Json& out, std::string& error) {
 
 std::string JsonChecks::errors() const {
     if (failed_ <= kMostTold) return errors_;
-    return errors_ + "\n" + path_ + ": and " + std::to_string(failed_ - kMostTold) + " more mistakes";
+    return errors_ + "\n" + path_ + ": further mistakes: " + std::to_string(failed_ - kMostTold);
 }
 
 void JsonChecks::fail(const Json& at, const std::string& message) {

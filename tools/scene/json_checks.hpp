@@ -20,12 +20,13 @@ class JsonChecks {
   public:
     explicit JsonChecks(std::string path) : path_(std::move(path)) {}
 
-    // A line each, "file:line:column: what is wrong", the first few; empty: all was well so far.
+    // A line each, "file:line:column: what is wrong", the first ten and how many more; empty: all was well so far.
     std::string errors() const;
     void fail(const Json& at, const std::string& message);
     std::string place(const Json& at) const;
 
-    // `what` begins the message. False: it isn't one, and has no members.
+    // `what` begins the message; where it has none of the keys at all that is told once. False: it isn't one, and has
+    // no members.
     bool isObject(const Json& json, const std::string& what, std::initializer_list<const char*> keys);
     // Null, with a mistake: there is none.
     const Json* need(const Json& json, const char* name);

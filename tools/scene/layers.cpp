@@ -5,7 +5,6 @@
 #include <cctype>
 #include <iterator>
 #include <locale>
-#include <optional>
 #include <sstream>
 
 #include "tools/scene/town.hpp"
@@ -30,18 +29,6 @@ std::string whole(const std::vector<std::string>& names, const std::string& name
     const std::string stem = name.size() < 3 ? "" : name.substr(0, name.size() - 2);
     const bool channel = std::ranges::any_of(kChannels, [&](const char* c) { return name == stem + c; });
     return channel && !stem.empty() && areColour(names, stem) ? stem : name;
-}
-
-// Where a grammar declares one of the plugin's layers.
-struct Declaration {
-    EspGrammar grammar;
-    uint32_t index;
-};
-std::optional<Declaration> declarationOf(const EspContext* context, const Scene& scene, const std::string& layer) {
-    for (const LoadedGrammar& grammar : scene.grammars)
-        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i)
-            if (espLayerName(context, grammar.id, i) == layer) return Declaration{grammar.id, i};
-    return std::nullopt;
 }
 
 }  // namespace
@@ -108,18 +95,24 @@ void noteLayers(const EspContext* context, Scene& scene) {
 
 float fillOf(const EspContext* context, const Scene& scene, const std::string& layer) {
     if (float value; espLayerFilled(context, layer.c_str(), &value)) return value;
-    const auto declared = declarationOf(context, scene, layer);
-    return declared ? espLayerFill(context, declared->grammar, declared->index) : 0;
+    for (const LoadedGrammar& grammar : scene.grammars)
+        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i)
+            if (espLayerName(context, grammar.id, i) == layer) return espLayerFill(context, grammar.id, i);
+    return 0;
 }
 
 std::string labelOf(const EspContext* context, const Scene& scene, const std::string& layer) {
-    const auto declared = declarationOf(context, scene, layer);
-    return declared ? espLayerLabel(context, declared->grammar, declared->index) : "";
+    for (const LoadedGrammar& grammar : scene.grammars)
+        for (uint32_t i = 0; i < espLayerCount(context, grammar.id); ++i)
+            if (const std::string label = espLayerLabel(context, grammar.id, i);
+                !label.empty() && espLayerName(context, grammar.id, i) == layer)
+                return label;
+    return "";
 }
 
-LayerWords wordsOf(const std::string& label) {
+LayerWords labelWords(const std::string& label) {
     LayerWords words;
-    for (size_t at = label.find(':'); at != std::string::npos; at = label.find(',', at + 1)) {
+    for (size_t at = label.find(": "); at != std::string::npos; at = label.find(',', at + 1)) {
         const std::string text = label.substr(at + 1, label.find(',', at + 1) - at - 1);
         std::istringstream part(text);
         part.imbue(std::locale::classic());

@@ -38,8 +38,8 @@ struct LayerWords {
     std::vector<NamedValue> values;
     std::string note;
 };
-LayerWords wordsOf(const std::string& label);
-// What the first grammar that declares one of the plugin's layers says of it; "" where none does.
+LayerWords labelWords(const std::string& label);
+// What the first grammar that says anything of one of the plugin's layers says of it; "" where none does.
 std::string labelOf(const EspContext* context, const Scene& scene, const std::string& layer);
 
 // A file's picture for each channel: three of a layer of colours, else one.
