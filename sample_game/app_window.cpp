@@ -16,6 +16,8 @@
 
 namespace sample {
 
+namespace fs = std::filesystem;
+
 void WindowCloser::operator()(GLFWwindow* window) const {
     glfwDestroyWindow(window);
 }
