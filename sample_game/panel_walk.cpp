@@ -66,33 +66,15 @@ void plantButtons(Workspace& work, const espalier::scene::Seed* seed) {
     if (freezes && seed) work.freeze({seed->key}, !frozen);
 }
 
-const char* endingOf(EspBranchEnd end) {
-    switch (end) {
-        case ESP_END_BY_RULES:
-            return "Ends as its rules say";
-        case ESP_END_REFUSED:
-            return "Ends: its condition holds nowhere ahead";
-        case ESP_END_NO_GROUND:
-            return "Ends: no ground goes on ahead";
-        case ESP_END_BY_LIMIT:
-            break;
-    }
-    return "Ends at a limit of the scene";
-}
-
-const char* endingTip(EspBranchEnd end) {
-    switch (end) {
-        case ESP_END_BY_RULES:
-            return "It is as long as the grammar and its sliders make it";
-        case ESP_END_REFUSED:
-            return "What the grammar asks of a step: what is painted there (B), how steep it is, how far it may be ...";
-        case ESP_END_NO_GROUND:
-            return "The surface ends here, or what is ahead is buried or bare: key 2 shows the ground in colours";
-        case ESP_END_BY_LIMIT:
-            break;
-    }
-    return "The scene's plants may be no more, or no longer";
-}
+// Why a branch goes no further, and what may be done about it; by EspBranchEnd.
+constexpr struct {
+    const char *text, *tip;
+} kEndings[] = {{"Ends as its rules say", "It is as long as the grammar and its sliders make it"},
+                {"Ends: its condition holds nowhere ahead",
+                 "What the grammar asks of a step: what is painted there (B), how steep it is, how far it may be ..."},
+                {"Ends: no ground goes on ahead",
+                 "The surface ends here, or what is ahead is buried or bare: key 2 shows the ground in colours"},
+                {"Ends at a limit of the scene", "The scene's plants may be no more, or no longer"}};
 
 }  // namespace
 
@@ -109,8 +91,8 @@ void branchPanel(Workspace& work) {
                       "Branches between it and its seed, steps of its walk,\njumps in the atlas. Its key: %016llx",
                       static_cast<unsigned long long>(*work.branch));
         toolTip(tip);
-        ImGui::TextUnformatted(endingOf(info.end));
-        toolTip(endingTip(info.end));
+        ImGui::TextUnformatted(kEndings[info.end].text);
+        toolTip(kEndings[info.end].tip);
     } else {
         ImGui::TextDisabled("Click a branch");
         ImGui::TextUnformatted("");

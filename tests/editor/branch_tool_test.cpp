@@ -12,6 +12,18 @@ struct Pruner : Editor {
         REQUIRE(espUpdate(work.context.get()) == ESP_OK);
         REQUIRE(work.readStats());
     }
+    // Lays it out in a panel at the left, 300 units high; `words` are what is written there from then on.
+    void open(std::string& words, void (*panel)(sample::Workspace&)) {
+        panels = [this, &words, panel] {
+            words = wordsOf([&] {
+                ImGui::SetNextWindowPos({0, 0});
+                ImGui::SetNextWindowSize({work.panelUnits(), 300});
+                ImGui::Begin("panel");
+                panel(work);
+                ImGui::End();
+            });
+        };
+    }
     // Where a branch would be picked; it is what was found by rays of the test's own.
     std::pair<glm::vec2, uint64_t> someBranch() const {
         for (float y = 20; y < work.window.y; y += 9)
@@ -58,15 +70,7 @@ TEST_CASE("a branch of a frozen plant isn't pruned before it is thawed, and that
     Pruner pruner(folder);
     auto& work = pruner.work;
     std::string words;
-    pruner.panels = [&] {
-        words = wordsOf([&] {
-            ImGui::SetNextWindowPos({0, 0});
-            ImGui::SetNextWindowSize({work.panelUnits(), 300});
-            ImGui::Begin("panel");
-            sample::branchPanel(work);
-            ImGui::End();
-        });
-    };
+    pruner.open(words, sample::branchPanel);
     pruner.click(pruner.someBranch().first);
     pruner.frame({});
     CHECK_MESSAGE(contains(words, "Ends"), words);
@@ -177,13 +181,7 @@ TEST_CASE("of a seed whose plant is pruned the panel says so, and nothing once i
     Pruner pruner(folder);
     auto& work = pruner.work;
     std::string words;
-    pruner.panels = [&] {
-        words = wordsOf([&] {
-            ImGui::Begin("panel");
-            sample::seedsPanel(work);
-            ImGui::End();
-        });
-    };
+    pruner.open(words, sample::seedsPanel);
     const uint32_t seed = work.scene().seeds[0].key;
     const auto grown = [&] {
         REQUIRE(espUpdate(work.context.get()) == ESP_OK);

@@ -85,3 +85,20 @@ TEST_CASE("figures tell the latest growth alone, memory in use and taken, and wh
     for (const char* row : {"Tiles left out", "17", "Roofs' parts stopped", "19"})
         CHECK_MESSAGE(contains(words, row), words);
 }
+
+TEST_CASE("a legend tells what a layer's values are called, and which way surfaces face that have a colour") {
+    const Folder folder;
+    Editor editor(folder, smallScene(folder), Tool::look);
+    auto& work = editor.work;
+    std::string words;
+    editor.panels = [&] { words = wordsOf([&] { sample::showLegend(work); }); };
+    REQUIRE(work.perform(SetView{"layer", "mask"}));
+    for (int i = 0; i < 2; ++i) editor.frame({});
+    for (const char* name : {"mask", "nowhere", "freely"}) CHECK_MESSAGE(contains(words, name), words);
+    REQUIRE(work.perform(SetView{"normals", ""}));
+    for (int i = 0; i < 2; ++i) editor.frame({});
+    for (const char* way : {"east", "west", "up", "down", "south", "north"}) CHECK_MESSAGE(contains(words, way), words);
+    REQUIRE(work.perform(SetView{"shaded", ""}));
+    for (int i = 0; i < 2; ++i) editor.frame({});
+    CHECK(words == "");
+}

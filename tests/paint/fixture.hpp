@@ -133,6 +133,12 @@ struct Painting {
     mutable uint32_t timesAnew = 0;
 };
 
+// The branch that the ray from one point towards another meets first.
+inline EspResult pick(const Painting& painting, glm::vec3 from, glm::vec3 towards, EspPlantHit* hit) {
+    const glm::vec3 way = towards - from;
+    return espPickPlant(painting.context, &from.x, &way.x, hit);
+}
+
 inline EspTransform movedBy(glm::vec3 by) {
     EspTransform place = espIdentity();
     for (int i = 0; i < 3; ++i) place.rows[i][3] = by[i];
