@@ -34,7 +34,7 @@ uint64_t hexadecimal(const json& object, const char* key, const std::string& pla
     return std::stoull(text, nullptr, 16);
 }
 
-const json& array(const json& object, const char* key, const std::string& place, size_t most) {
+const json& array(const json& object, const char* key, const char* place, size_t most) {
     const json& value = at(object, key, place);
     if (!value.is_array() || value.size() > most) fail(place, std::string(key) + " is not an array of sane length");
     return value;

@@ -117,7 +117,7 @@ CoarserMesh readMesh(Container& file, uint64_t index, size_t materials) {
     const std::string place = indexed("meshes", index);
     if (index >= meshes.size()) fail(place, "does not exist");
     CoarserMesh mesh;
-    const json& primitives = array(meshes[index], "primitives", place, 1 << 16);
+    const json& primitives = array(meshes[index], "primitives", place.c_str(), 1 << 16);
     for (size_t p = 0; p < primitives.size(); ++p)
         readPrimitive(file, primitives[p], materials, place + "." + indexed("primitives", p), mesh);
     addTangents(mesh.vertices, mesh.indices);

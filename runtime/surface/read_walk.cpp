@@ -33,7 +33,7 @@ void readShared(Container& file, const json& walk, SurfaceData& data) {
     if (source.is_string()) data.source = source.get<std::string>();
     for (int side = 0; side < 2; ++side) {
         const char* key = side == 0 ? "bounds_min" : "bounds_max";
-        const json& bounds = array(walk, key, place, 3);
+        const json& bounds = array(walk, key, kExtension, 3);
         for (size_t k = 0; k < 3; ++k) {
             if (k >= bounds.size() || !bounds[k].is_number()) fail(place, std::string(key) + " is not three numbers");
             (side == 0 ? data.boundsMin : data.boundsMax)[int(k)] = bounds[k].get<float>();
@@ -47,7 +47,7 @@ void readShared(Container& file, const json& walk, SurfaceData& data) {
 // The finest and all after it; hashes: of each level, as the file states them.
 void readLevels(Container& file, const json& walk, uint32_t finest, SurfaceData& data, std::vector<uint64_t>& hashes) {
     const std::string place = kExtension;
-    const json& levels = array(walk, "levels", place, kMaxLevels);
+    const json& levels = array(walk, "levels", kExtension, kMaxLevels);
     if (levels.empty()) fail(place, "no levels");
     finest = std::min(finest, uint32_t(levels.size() - 1));
     uint32_t before = 0;

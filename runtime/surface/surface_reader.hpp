@@ -26,7 +26,7 @@ struct Damage {
 const json& at(const json& object, const char* key, const std::string& place);
 uint64_t whole(const json& object, const char* key, const std::string& place, uint64_t most);
 uint64_t hexadecimal(const json& object, const char* key, const std::string& place);
-const json& array(const json& object, const char* key, const std::string& place, size_t most);
+const json& array(const json& object, const char* key, const char* place, size_t most);
 float number(const json& object, const char* key, float otherwise);  // what isn't finite counts as missing
 bool flag(const json& object, const char* key);                      // what isn't true is false
 std::string indexed(const char* name, size_t i);

@@ -14,9 +14,19 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <variant>
 
 namespace espalier::contacttest {
 namespace {
+
+// What a variant of CGAL's holds, if it is a T: these are boost's before CGAL 6, and then the standard library's.
+template <class T, class Variant>
+const T* heldAs(const Variant& variant) {
+    if constexpr (requires { std::get_if<T>(&variant); })
+        return std::get_if<T>(&variant);
+    else
+        return boost::get<T>(&variant);
+}
 
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point = Kernel::Point_3;
@@ -147,7 +157,7 @@ std::vector<ContactLine> Oracle::intersections() const {
         if (triangles_[x.info()].piece == triangles_[y.info()].piece) return;
         auto shared = CGAL::intersection(shapes[x.info()], shapes[y.info()]);
         if (!shared) return;
-        if (const auto* s = boost::get<Kernel::Segment_3>(&*shared))
+        if (const auto* s = heldAs<Kernel::Segment_3>(*shared))
             lines.push_back({from(s->source()), from(s->target())});
     });
     return lines;

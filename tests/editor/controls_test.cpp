@@ -4,6 +4,7 @@
 
 #include "sample_game/dialogue.hpp"
 #include "sample_game/panels.hpp"
+#include "tests/editor/imgui_keys.hpp"
 #include "tests/editor/window.hpp"
 
 using namespace espalier::document;
@@ -213,12 +214,11 @@ TEST_CASE("a colour that is typed is one step of undo, however many of its lette
         ImGui::End();
         ImGui::Render();
     };
-    ImGui::GetIO().KeyMap[ImGuiKey_Enter] = 1;
     const auto type = [&](const char* text) {
         frame(true);
         frame(), frame();
         for (; *text; ++text) ImGui::GetIO().AddInputCharacter(unsigned(*text)), frame();
-        for (bool down : {true, false}) ImGui::GetIO().KeysDown[1] = down, frame();
+        for (bool down : {true, false}) setKey(ImGuiKey_Enter, down), frame();
         frame();
     };
     const size_t before = work.document->undoSteps();

@@ -5,6 +5,7 @@
 
 #include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
+#include "tests/editor/imgui_keys.hpp"
 #include "tests/editor/widgets.hpp"
 
 namespace {
@@ -46,9 +47,7 @@ struct Field {
     bool frame(bool begins = false, ImGuiKey key = ImGuiKey_COUNT) {
         ImGuiIO& io = ImGui::GetIO();
         io.DisplaySize = {400, 300};
-        for (int i = 0; i < ImGuiKey_COUNT; ++i) io.KeyMap[i] = i;
-        std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
-        if (key != ImGuiKey_COUNT) io.KeysDown[key] = true;
+        if (key != ImGuiKey_COUNT) setKey(key, true);
         ImGui::NewFrame();
         ImGui::Begin("panel");
         if (begins) ImGui::SetKeyboardFocusHere();
@@ -58,6 +57,7 @@ struct Field {
         const bool changed = sample::labelledSlider("Time", &hour, 0, 24, text, false, sample::hoursOf);
         ImGui::End();
         ImGui::Render();
+        if (key != ImGuiKey_COUNT) setKey(key, false);
         return changed;
     }
     void type(const std::string& text) {
@@ -120,10 +120,9 @@ TEST_CASE("a project is saved among other files only when that is said twice, an
         CAPTURE(name);
         Asked asked(folder);
         const auto enter = [&] {
-            ImGui::GetIO().KeyMap[ImGuiKey_Enter] = ImGuiKey_Enter;
-            ImGui::GetIO().KeysDown[ImGuiKey_Enter] = true;
+            setKey(ImGuiKey_Enter, true);
             asked.frame({});
-            ImGui::GetIO().KeysDown[ImGuiKey_Enter] = false;
+            setKey(ImGuiKey_Enter, false);
             asked.settle();
             asked.session.background().finish();
             asked.settle();
@@ -160,10 +159,9 @@ TEST_CASE("each file that an export of several surfaces writes is told, and each
         asked.settle();
         CHECK_MESSAGE(contains(words, "first surface"), words);
         CHECK_MESSAGE(contains(words, "-1, -2"), words);
-        ImGui::GetIO().KeyMap[ImGuiKey_Enter] = ImGuiKey_Enter;
-        ImGui::GetIO().KeysDown[ImGuiKey_Enter] = true;
+        setKey(ImGuiKey_Enter, true);
         asked.frame({});
-        ImGui::GetIO().KeysDown[ImGuiKey_Enter] = false;
+        setKey(ImGuiKey_Enter, false);
         asked.settle();
         asked.session.background().finish();
         asked.settle();
@@ -203,10 +201,9 @@ TEST_CASE("a path is typed over what was asked for before, each time that it is 
         asked.settle();
         type(name);
         CHECK(std::string(sample::dialogues().file.data()) == name);
-        ImGui::GetIO().KeyMap[ImGuiKey_Escape] = ImGuiKey_Escape;
-        ImGui::GetIO().KeysDown[ImGuiKey_Escape] = true;
+        setKey(ImGuiKey_Escape, true);
         asked.frame({});
-        ImGui::GetIO().KeysDown[ImGuiKey_Escape] = false;
+        setKey(ImGuiKey_Escape, false);
         asked.settle();
         CHECK(!sample::usesPanels());
     }
@@ -268,9 +265,7 @@ struct Row {
         io.MousePos = mouse;
         io.MouseDown[0] = down;
         io.DeltaTime = 1.f / 3;  // clicks of unlike frames are no double click
-        for (int i = 0; i < ImGuiKey_COUNT; ++i) io.KeyMap[i] = i;
-        std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
-        if (key != ImGuiKey_COUNT) io.KeysDown[key] = true;
+        if (key != ImGuiKey_COUNT) setKey(key, true);
         ImGui::NewFrame();
         ImGui::SetNextWindowPos({0, 0});
         ImGui::Begin("panel");
@@ -288,6 +283,7 @@ struct Row {
         below = middle();
         ImGui::End();
         ImGui::Render();
+        if (key != ImGuiKey_COUNT) setKey(key, false);
     }
     void type(const char* text) {
         for (int i = 0; i < 3; ++i) frame();

@@ -4,6 +4,7 @@
 
 #include "sample_game/panels.hpp"
 #include "sample_game/remarks.hpp"
+#include "tests/editor/imgui_keys.hpp"
 #include "tests/editor/widgets.hpp"
 
 using namespace espalier::document;
@@ -16,8 +17,6 @@ struct Writer : Editor {
     Writer(const Folder& folder, const std::string& scene) : Editor(folder, scene, Tool::look) {
         work.window = {1280, 720};
         work.layout.grammar = true;
-        ImGuiIO& io = ImGui::GetIO();
-        for (int i = 0; i < ImGuiKey_COUNT; ++i) io.KeyMap[i] = i;
         panels = [this] {
             sample::beginGesture(work);
             sample::showGrammarWindow(work);
@@ -54,13 +53,11 @@ struct Writer : Editor {
         widgetKey(ImGuiKey_End, true);
     }
     void widgetKey(ImGuiKey key, bool ctrl = false) {
-        ImGuiIO& io = ImGui::GetIO();
-        io.KeyCtrl = ctrl;
-        io.KeyMods = ctrl ? ImGuiKeyModFlags_Ctrl : ImGuiKeyModFlags_None;
-        io.KeysDown[key] = true;
+        setControl(ctrl);
+        setKey(key, true);
         frame({});
-        io.KeysDown[key] = io.KeyCtrl = false;
-        io.KeyMods = ImGuiKeyModFlags_None;
+        setKey(key, false);
+        setControl(false);
         rest();
     }
     void type(const std::string& text) {

@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include "sample_game/panels.hpp"
+#include "tests/editor/imgui_keys.hpp"
 #include "tests/editor/window.hpp"
 
 using namespace espalier::document;
@@ -72,7 +73,7 @@ TEST_CASE("a bracket that AltGr and another key write is that bracket to tools, 
             CHECK(keys[0].key == meant);
             CHECK(keys[0].mods == 0);
             CHECK(keys[0].x == 3);
-            for (const bool down : ImGui::GetIO().KeysDown) CHECK(!down);
+            CHECK(!isAnyKeyDown());
         }
     keyboard.events.key({GLFW_KEY_5, 0, 0, 0}, 0, GLFW_PRESS);
     keyboard.events.letter('5');

@@ -3,6 +3,7 @@
 
 #include "sample_game/dialogue.hpp"
 #include "sample_game/panels.hpp"
+#include "tests/editor/imgui_keys.hpp"
 #include "tests/editor/widgets.hpp"
 #include "tools/document/project.hpp"
 
@@ -36,8 +37,7 @@ struct Dialogue : Editor {
     static constexpr const char* kTitle = "Unsaved work";
     Dialogue(const Folder& folder, const std::string& file, bool escape = false)
         : Editor(folder, file, sample::Tool::look) {
-        for (int i = 0; i < ImGuiKey_COUNT; ++i) ImGui::GetIO().KeyMap[i] = i;
-        ImGui::GetIO().KeysDown[ImGuiKey_Escape] = escape;
+        setKey(ImGuiKey_Escape, escape);
         panels = [this] { sample::showDialogues(work, session); };
         for (int i = 0; i < 3; ++i) frame({});
     }
@@ -123,10 +123,10 @@ TEST_CASE("Esc puts off what waits, but not the Esc that was pressed before it w
     crash(folder, scene, .25f);
     Dialogue dialogue(folder, scene, true);
     CHECK(dialogue.asks());
-    ImGui::GetIO().KeysDown[ImGuiKey_Escape] = false;
+    setKey(ImGuiKey_Escape, false);
     for (int i = 0; i < 3; ++i) dialogue.frame({});
     CHECK(dialogue.asks());
-    ImGui::GetIO().KeysDown[ImGuiKey_Escape] = true;
+    setKey(ImGuiKey_Escape, true);
     for (int i = 0; i < 3; ++i) dialogue.frame({});
     CHECK(!dialogue.asks());
     CHECK(autosavesIn(folder.path / "config").size() == 1);
@@ -306,9 +306,9 @@ TEST_CASE("a project's own autosave can wait, too, until the project is saved") 
         Dialogue again(folder, garden);
         REQUIRE(again.asks());
         CHECK(again.session.autosaves().recovery() == offered);
-        ImGui::GetIO().KeysDown[ImGuiKey_Escape] = true;  // later
+        setKey(ImGuiKey_Escape, true);  // later
         for (int i = 0; i < 3; ++i) again.frame({});
-        ImGui::GetIO().KeysDown[ImGuiKey_Escape] = false;
+        setKey(ImGuiKey_Escape, false);
         CHECK(again.session.autosaves().holdsBack());
         again.fill(1);
         CHECK(!sample::askToSave(again.work, again.session));  // that it would go is asked about

@@ -6,6 +6,7 @@
 #include "sample_game/dialogue.hpp"
 #include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
+#include "tests/editor/imgui_keys.hpp"
 #include "tests/editor/window.hpp"
 #include "tools/document/project.hpp"
 
@@ -19,7 +20,6 @@ using Turn = sample::Dialogues::Turn;
 struct Answered : Editor {
     Answered(const Folder& folder, const std::string& file) : Editor(folder, file, sample::Tool::look) {
         panels = [this] { sample::showDialogues(work, session); };
-        ImGui::GetIO().KeyMap[ImGuiKey_Enter] = ImGuiKey_Enter;
         dialogues() = {};
     }
     ~Answered() {
@@ -35,7 +35,7 @@ struct Answered : Editor {
     void enter() {
         settle();
         for (const bool down : {true, false}) {
-            ImGui::GetIO().KeysDown[ImGuiKey_Enter] = down;
+            setKey(ImGuiKey_Enter, down);
             frame({});
         }
         settle();

@@ -46,7 +46,11 @@ inline std::string wordsOf(const std::function<void()>& layOut) {
 // happens; what is disabled is pressed, too.
 inline void pressWidget(Editor& editor, const std::string& window, const std::vector<Part>& path) {
     editor.work.newGesture();
+#if IMGUI_VERSION_NUM >= 18900
+    ImGui::ActivateItemByID(widget(window, path));
+#else
     ImGui::ActivateItem(widget(window, path));
+#endif
     for (int i = 0; i < 3; ++i) editor.frame({});
 }
 

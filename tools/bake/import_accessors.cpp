@@ -117,7 +117,7 @@ Status applySparse(const Document& document, int index, const Strided& from, int
     size_t indexSize = size_t(tinygltf::GetComponentSizeInBytes(uint32_t(sparse.indices.componentType)));
     size_t size = size_t(tinygltf::GetComponentSizeInBytes(uint32_t(from.componentType)));
     size_t element = size * size_t(from.components);
-    if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
+    if (int64_t(sparse.indices.byteOffset) < 0 || int64_t(sparse.values.byteOffset) < 0)
         return Failure(document.path, place + ": negative offset");
     auto at = part(document, sparse.indices.bufferView, size_t(sparse.indices.byteOffset), count * indexSize, place);
     if (!at) return std::move(at.failure());
