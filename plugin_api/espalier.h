@@ -35,7 +35,8 @@ typedef enum EspResult {
     ESP_INVALID_ARGUMENT = 1,   /* a null pointer, a number out of range, an id of nothing */
     ESP_INVALID_CONTENT = 2,    /* a file or text that can't be used; espLastError names file, place and cause */
     ESP_IO_FAILED = 3,          /* can't read or write */
-    ESP_NO_DEVICE = 4,          /* no Vulkan device that can run Espalier, or it can't be made */
+    ESP_NO_DEVICE = 4,          /* no Vulkan device that can run Espalier, or it can't be made; a driver that was found to
+                                   run kernels wrongly */
     ESP_DEVICE_LOST = 5,        /* destroy the context and create it anew */
     ESP_OUT_OF_MEMORY = 6,
     ESP_STOPPED = 7             /* who watches growth gave it up (espWatchGrowth) */
@@ -78,7 +79,11 @@ typedef struct EspContextDef {
     void* logUser;
     const char* terminals;       /* path of the terminal meshes (terminals.glb), beside which towns look for roofs.glb; NULL:
                                     in the library's content */
-    const char* cacheFolder;     /* compiled rule maps are cached here, the 256 used last; NULL: no cache on disk */
+    const char* cacheFolder;     /* compiled rule maps are cached here, the 256 used last, and devices that have passed the
+                                    self-check are remembered; NULL: no cache on disk */
+    int skipSelfCheck;           /* 0: the first context on a device and driver grows and draws a small scene by shaders and
+                                    compares it with what has to come out. espCreate then fails with ESP_NO_DEVICE, and
+                                    names device and driver, where the driver runs our kernels wrongly. 1: it doesn't */
 } EspContextDef;
 
 ESP_API EspContextDef espDefaultContextDef(void);

@@ -14,6 +14,7 @@
 #include "sample_game/app_state.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/settings.hpp"
+#include "tools/scene/user_folders.hpp"
 
 namespace sample {
 
@@ -59,7 +60,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     device.anisotropy = host_->anisotropy();
     EspContextDef def = espDefaultContextDef();
     def.host = &device;
-    const std::string cache = cacheFolder();
+    const std::string cache = espalier::scene::cacheFolder();
     if (!cache.empty()) def.cacheFolder = cache.c_str();
     def.log = [](void*, EspLogLevel level, const char* message) {
         if (level == ESP_LOG_WARNING) std::fprintf(stderr, "espalier-sample: warning: %s\n", message);

@@ -13,6 +13,7 @@
 #include "sample_game/app_state.hpp"
 #include "sample_game/settings.hpp"
 #include "sample_game/theme.hpp"
+#include "tools/scene/user_folders.hpp"
 
 namespace sample {
 
@@ -39,10 +40,12 @@ void fitDisplay(GLFWwindow* window) {
 
 // What the last session has left. Tests and scripts neither find nor leave anything.
 void App::recall() {
-    layoutFile_ = options_.frames || configFolder().empty() ? "" : configFolder() + "/windows.ini";
+    layoutFile_ = options_.frames || espalier::scene::configFolder().empty()
+                      ? ""
+                      : espalier::scene::configFolder() + "/windows.ini";
     if (layoutFile_.empty()) return;
     std::error_code ignored;
-    fs::create_directories(configFolder(), ignored);
+    fs::create_directories(espalier::scene::configFolder(), ignored);
     readLayout(work_.layout, work_.brush, layoutError_);
     const Layout& layout = work_.layout;
     if (options_.sized || layout.windowWidth < kLeastWidth || layout.windowHeight < kLeastHeight) return;

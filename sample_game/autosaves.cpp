@@ -11,6 +11,7 @@
 #include "sample_game/settings.hpp"
 #include "tools/document/project.hpp"
 #include "tools/scene/hash.hpp"
+#include "tools/scene/user_folders.hpp"
 
 namespace sample {
 namespace {
@@ -22,7 +23,7 @@ constexpr int kMostPlaces = 99;  // editors of one scene
 
 // Where folders of what was never saved lie; empty: nowhere.
 fs::path allUnsaved() {
-    return configFolder().empty() ? "" : fs::path(configFolder()) / "unsaved";
+    return espalier::scene::configFolder().empty() ? "" : fs::path(espalier::scene::configFolder()) / "unsaved";
 }
 
 // An autosave that isn't needed any more. A folder that isn't one of ours is left but for that.

@@ -8,18 +8,13 @@
 #include "tools/document/durable.hpp"
 #include "tools/document/fields.hpp"
 #include "tools/scene/text_file.hpp"
+#include "tools/scene/user_folders.hpp"
 
 namespace sample {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace espalier;
-
-std::string below(const char* variable, const char* inHome) {
-    if (const char* folder = std::getenv(variable); folder && *folder) return std::string(folder) + "/espalier";
-    if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + inHome + "/espalier";
-    return {};
-}
 
 // As this version or another has written it.
 struct LayoutRecord {
@@ -90,7 +85,7 @@ constexpr const char* kKept = ".json";
 constexpr const char* kRemoved = ".removed";
 
 fs::path presetFolder(const std::string& grammar) {
-    return configFolder() + "/presets/" + grammar;
+    return espalier::scene::configFolder() + "/presets/" + grammar;
 }
 
 fs::path presetFile(const std::string& grammar, const std::string& name, const char* extension = kKept) {
@@ -108,7 +103,8 @@ std::vector<std::string> namesIn(const fs::path& folder, const char* extension) 
 }
 
 std::vector<std::string> presetsWith(const std::string& grammar, const char* extension) {
-    return configFolder().empty() ? std::vector<std::string>{} : namesIn(presetFolder(grammar), extension);
+    return espalier::scene::configFolder().empty() ? std::vector<std::string>{}
+                                                   : namesIn(presetFolder(grammar), extension);
 }
 
 // Beside the grammar that they come with.
@@ -136,18 +132,11 @@ bool moveFile(const fs::path& from, const fs::path& to, std::string& error) {
 
 }  // namespace
 
-std::string configFolder() {
-    return below("XDG_CONFIG_HOME", "/.config");
-}
-std::string cacheFolder() {
-    return below("XDG_CACHE_HOME", "/.cache");
-}
-
 void readLayout(Layout& layout, Brush& brush, std::string& error) {
     LayoutRecord record{layout, brush};
-    const std::string file = configFolder() + "/layout.json";
+    const std::string file = espalier::scene::configFolder() + "/layout.json";
     std::error_code code;
-    if (configFolder().empty() || !fs::exists(file, code)) return;
+    if (espalier::scene::configFolder().empty() || !fs::exists(file, code)) return;
     if (!read(file, record, error)) {
         fs::copy_file(file, file + ".damaged", fs::copy_options::overwrite_existing, code);
         error += "; panels are as in the beginning, and it is kept as " + file + ".damaged";
@@ -168,7 +157,8 @@ void readLayout(Layout& layout, Brush& brush, std::string& error) {
 
 void writeLayout(const Layout& layout, const Brush& brush) {
     std::string ignored;
-    if (!configFolder().empty()) write(configFolder() + "/layout.json", LayoutRecord{layout, brush}, ignored);
+    if (!espalier::scene::configFolder().empty())
+        write(espalier::scene::configFolder() + "/layout.json", LayoutRecord{layout, brush}, ignored);
 }
 
 std::string presetsOf(const std::string& grammarFile) {
@@ -201,7 +191,7 @@ bool readShippedPreset(const std::string& grammarFile, const std::string& name, 
 
 bool writePreset(const std::string& grammar, const std::string& name, const std::vector<document::Param>& params,
                  std::string& error) {
-    if (configFolder().empty()) {
+    if (espalier::scene::configFolder().empty()) {
         error = "neither XDG_CONFIG_HOME nor HOME is set: there is no place for presets";
         return false;
     }

@@ -7,11 +7,6 @@
 
 namespace sample {
 
-// Where the editor keeps what belongs to the user and not to a project: $XDG_CONFIG_HOME/espalier, or the like below
-// $HOME. Empty where the system names no such place; nothing is remembered then.
-std::string configFolder();
-std::string cacheFolder();
-
 // What doesn't exist or can't be read leaves the layout as it is. What is damaged is told in `error`, and kept beside
 // the file, since writeLayout() takes its place.
 void readLayout(Layout& layout, Brush& brush, std::string& error);

@@ -264,6 +264,8 @@ Status GpuGrowth::growWhole(const GrowthInputs& inputs) {
         verdict = judge(withoutFrozen(outcome->status, frozen.records), outcome->waves, limits, room_, cut);
         if (verdict == Verdict::impossible || verdict == Verdict::tooManyLeaves) break;
         if (verdict == Verdict::complete) {
+            if (!everyShapeGrew(withoutFrozen(outcome->status, frozen.records), outcome->waves))
+                return device_.fault("growth lost shapes that it had queued");
             publish(inputs, frozen, *outcome, originOf(inputs));
             const GrowthCut none = noCut(inputs.limits);
             whole_ = cut.wave == none.wave && cut.key == none.key;

@@ -205,6 +205,16 @@ Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const Growt
     return Verdict::tooSmall;
 }
 
+bool everyShapeGrew(const GrowStatus& status, std::span<const Wave> waves) {
+    uint64_t chunks = 0, nodes = 0;
+    for (size_t w = 0; w < waves.size(); ++w) {
+        if (w < status.limitWave && waves[w].chunks != waves[w].count) return false;
+        chunks += waves[w].chunks;
+        nodes += waves[w].nodes;
+    }
+    return chunks == status.chunks && nodes == status.nodes;
+}
+
 Failure limitFailure(Verdict verdict, const GrowthLimits& limits) {
     if (verdict == Verdict::tooManyLeaves)
         return Failure("growth", "the plants would have more than " + std::to_string(limits.maxLeaves) + " leaves");

@@ -35,6 +35,11 @@ enum class Verdict { complete, tooSmall, cut, impossible, tooManyLeaves };
 Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const GrowthLimits& limits, GrowthRoom& room,
               GrowthCut& cut);
 
+// Whether each shape that was queued became a chunk, and each chunk's nodes were counted, in every wave that no limit
+// cuts. It holds of every complete growth, whatever the grammar: where it doesn't, the device doesn't run the kernels
+// as they are written. waves: of a complete attempt without frozen plants.
+bool everyShapeGrew(const GrowStatus& status, std::span<const Wave> waves);
+
 // Why limits let nothing grow; verdict: one of the last two.
 Failure limitFailure(Verdict verdict, const GrowthLimits& limits);
 bool stopped(const GrowthInputs& inputs);  // by who watches

@@ -106,6 +106,12 @@ void Device::setName(VkObjectType type, uint64_t handle, std::string_view name) 
     vk_.vkSetDebugUtilsObjectNameEXT(device_, &info);
 }
 
+Failure Device::fault(std::string_view what) {
+    faulty_ = true;
+    return deviceFailure(info_.name + " (" + info_.driver + ")",
+                         std::string(what) + ": this driver doesn't run Espalier's kernels as they are written");
+}
+
 bool Device::succeeded(VkResult result, const char* expression, std::string_view object) {
     driverFailed_ = result == VK_ERROR_UNKNOWN || result == VK_ERROR_INITIALIZATION_FAILED;
     switch (result) {

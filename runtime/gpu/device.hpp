@@ -47,7 +47,8 @@ struct HostDevice {
 struct DeviceInfo {
     std::string name;
     std::string driver;
-    bool cpu = false;  // a software device
+    uint64_t identity = 0;  // of device, driver and the width of its subgroups: another one where any of them differs
+    bool cpu = false;       // a software device
     uint32_t subgroupSize = 0;
     uint32_t queueFamily = 0;
     float timestampNanoseconds = 0;  // 0: no timestamps
@@ -117,6 +118,10 @@ class Device {
     bool lost() const { return lost_; }
     // The latest call has failed for a reason that the driver doesn't tell.
     bool driverFailed() const { return driverFailed_; }
+    // Notes that the driver has run kernels otherwise than they are written, and tells so with its and the device's
+    // name. what: the effect that was seen.
+    Failure fault(std::string_view what);
+    bool faulty() const { return faulty_; }  // so it was noted
 
     // For other files of gpu/.
     void setName(VkObjectType type, uint64_t handle, std::string_view name) const;
@@ -136,7 +141,7 @@ class Device {
     bool ownsInstance_ = false;
     bool ownsDevice_ = false;
     bool debugUtils_ = false;
-    bool lost_ = false, driverFailed_ = false;
+    bool lost_ = false, driverFailed_ = false, faulty_ = false;
     Log log_;
     void* loader_ = nullptr;
     PFN_vkGetInstanceProcAddr getInstanceProcAddr_ = nullptr;

@@ -6,9 +6,11 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "runtime/core/hash.hpp"
 #include "runtime/gpu/command_pools.hpp"
 #include "runtime/gpu/device.hpp"
 #include "runtime/gpu/features.hpp"
+#include "runtime/gpu/known_faults.hpp"
 #include "runtime/gpu/limits.hpp"
 #include "runtime/gpu/retire.hpp"
 #include "runtime/gpu/timer.hpp"
@@ -101,7 +103,7 @@ Candidate examine(const InstanceFunctions& vk, VkPhysicalDevice device) {
     if (!hasExtension(deviceExtensions(vk, device), VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME))
         missing.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
     if (graphicsFamily(vk, device) < 0) missing.push_back("a queue for graphics and compute");
-    if (!missing.empty()) c.unfit = "lacks " + joined(missing);
+    c.unfit = missing.empty() ? knownFault(vk, device) : "lacks " + joined(missing);
     return c;
 }
 
@@ -278,6 +280,11 @@ struct DeviceSetup {
         info.driver = std::string(v12.driverName) + " " + v12.driverInfo;
         info.cpu = all.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
         info.subgroupSize = v11.subgroupSize;
+        info.identity = hashValues<uint8_t>(v11.deviceUUID, hashValues<uint8_t>(v11.driverUUID));
+        info.identity = hashValues<uint8_t>(all.properties.pipelineCacheUUID, info.identity);
+        const uint32_t numbers[] = {all.properties.vendorID, all.properties.deviceID, all.properties.driverVersion,
+                                    v11.subgroupSize};
+        info.identity = hashValues<uint32_t>(numbers, hashText(info.name + info.driver, info.identity));
         info.limits = all.properties.limits;
         info.maxBufferBytes = v13.maxBufferSize;
         info.maxAnisotropy = std::min(info.maxAnisotropy, info.limits.maxSamplerAnisotropy);

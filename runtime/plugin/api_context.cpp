@@ -6,6 +6,7 @@
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/features.hpp"
+#include "runtime/plugin/checked_devices.hpp"
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/errors.hpp"
 
@@ -75,6 +76,9 @@ EspResult create(const EspContextDef& def, EspContext** out) {
     Result<std::unique_ptr<Device>> device = makeDevice(def, context->log);
     if (!device) return failAlone(ESP_NO_DEVICE, device.failure().text());
     context->device = std::move(*device);
+    if (!def.skipSelfCheck)
+        if (Status checked = checkDevice(*context->device, context->cacheFolder); !checked)
+            return failAlone(gpuCode(*context), checked.failure().text());
 
     const std::filesystem::path terminals = def.terminals ? def.terminals : contentFolder() / "terminals.glb";
     context->roofMeshFile = std::filesystem::path(terminals).replace_filename("roofs.glb");
@@ -120,6 +124,7 @@ EspResult fail(const EspContext* context, EspResult code, std::string message) {
 }
 
 EspResult gpuCode(const EspContext& context) {
+    if (context.device->faulty()) return ESP_NO_DEVICE;
     return context.device->lost() ? ESP_DEVICE_LOST : ESP_OUT_OF_MEMORY;
 }
 

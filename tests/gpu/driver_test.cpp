@@ -43,6 +43,14 @@ VKAPI_ATTR void VKAPI_CALL smallUniforms(VkPhysicalDevice device, VkPhysicalDevi
     all->properties.limits.maxUniformBufferRange = 16384;  // Vulkan's least
 }
 
+// As lavapipe has where its vectors have 128 bits.
+VKAPI_ATTR void VKAPI_CALL fewLanes(VkPhysicalDevice device, VkPhysicalDeviceProperties2* all) {
+    realProperties(device, all);
+    for (auto* next = static_cast<VkBaseOutStructure*>(all->pNext); next; next = next->pNext)
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_PROPERTIES)
+            reinterpret_cast<VkPhysicalDeviceVulkan11Properties*>(next)->subgroupSize = 4;
+}
+
 // Why a device whose properties are told by `properties` isn't taken.
 std::string refusal(Device& real, PFN_vkGetPhysicalDeviceProperties2 properties) {
     realProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
@@ -139,6 +147,16 @@ TEST_CASE("a device whose subgroups can't vote, or whose uniform blocks are smal
     TestDevice t;
     CHECK(refusal(t.device, withoutBallots).find("ballots") != std::string::npos);
     CHECK(refusal(t.device, smallUniforms).find("uniform blocks of 65536 bytes") != std::string::npos);
+}
+
+TEST_CASE("a driver that is known to miscompile our kernels is refused by its name, with what has brought it about") {
+    TestDevice t;
+    ::setenv("LP_NATIVE_VECTOR_WIDTH", "128", 1);
+    const std::string text = refusal(t.device, fewLanes);
+    ::unsetenv("LP_NATIVE_VECTOR_WIDTH");
+    CAPTURE(text);
+    for (const char* part : {"llvmpipe", "miscompile", "LP_NATIVE_VECTOR_WIDTH is set to \"128\""})
+        CHECK(text.find(part) != std::string::npos);
 }
 
 TEST_CASE("more texels than the GPU reads of a buffer are refused") {

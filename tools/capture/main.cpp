@@ -25,6 +25,7 @@
 #include "tools/scene/scene.hpp"
 #include "tools/scene/scene_file.hpp"
 #include "tools/scene/text_file.hpp"
+#include "tools/scene/user_folders.hpp"
 
 using namespace espalier::scene;
 using espalier::document::Document;
@@ -43,7 +44,7 @@ struct Options {
     uint32_t frames = 1;
     uint32_t width = 1280, height = 720;
     std::optional<float> hour;
-    std::string size, folder = "out", stats, view = "shaded", walk, camera, cache, replay;
+    std::string size, folder = "out", stats, view = "shaded", walk, camera, cache = cacheFolder(), replay;
     uint32_t every = 1;
     long long seed = -1;
     uint32_t maxNodes = espDefaultGrowDef().maxNodes;
@@ -114,7 +115,9 @@ void addOptions(CLI::App& app, Options& options) {
         ->check(CLI::Range(1u, 4294967295u));
     app.add_option("--leaf-cap", options.leafCap, "leaves per square metre and seed at most, 0: no cap")
         ->capture_default_str();
-    app.add_option("--cache", options.cache, "folder that keeps compiled grammars");
+    app.add_option("--cache", options.cache,
+                   "folder that keeps compiled grammars and which devices have passed the self-check (default: in the "
+                   "user's cache)");
     app.add_flag("--moving", options.moving,
                  "drawn as a window does on a slow device while its camera moves: coarser, and sooner done");
     app.add_flag("--shaders", options.shaders, "growth by shaders on a software device too, not as native code");
