@@ -112,6 +112,7 @@ TEST_CASE("a device that has passed is remembered in the folder; a check that cr
     DeviceOptions options;
     options.log = [&](Severity, std::string_view text) { said += text; };
     std::unique_ptr<Device> device = madeDevice(options);
+    forgetCheckedDevices();
     REQUIRE(checkDevice(*device, folder.path));
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path)) files.push_back(entry.path());
