@@ -76,6 +76,8 @@ struct RoofHouse {
     RoofShape shape;
     std::vector<std::vector<glm::vec2>> rings;  // repaired footprint: outer ring, holes
     std::vector<EdgeRoof> edges;                // of these rings, as was asked for
+    std::vector<float> shared;                  // an edge each: metres from the walls' foot that a neighbour covers
+    bool open;                                  // on posts, without walls
     std::string note;                           // what couldn't be made as asked, a line each
     uint32_t firstFace, faceCount;
     uint32_t material;  // RoofMaterial of footprint.hpp
