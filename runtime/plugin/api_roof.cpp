@@ -73,6 +73,8 @@ Result<LoadedTown> prepare(EspContext& context, const EspTownDef& def) {
     const auto begin = std::chrono::steady_clock::now();
     std::vector<Diagnostic> diagnostics = std::move(read->diagnostics);
     town.footprints = std::move(read->footprints);
+    town.origin = read->origin;
+    town.geographic = read->geographic;
     for (uint32_t i = 0; i < town.footprints.size(); ++i) {
         place(town.footprints[i], def);
         std::vector<Diagnostic> said;

@@ -144,9 +144,8 @@ class HouseMaker {
         house.overhang = footprint_.overhang;
         house.chimneys = footprint_.chimneys;
         for (const Beside& b : divided.beside) {
-            const bool stands = b.top > footprint_.baseHeight || b.endsRoof;
-            const double top = b.endsRoof ? std::max(b.top, h.eave) : b.top;
-            house.shared.push_back(stands ? float(top - footprint_.baseHeight) : 0);
+            const double covered = std::max(b.top - footprint_.baseHeight, 0.0);
+            house.shared.push_back(b.endsRoof ? kEndsRoof : float(covered));
         }
         for (const auto& ring : divided.rings) house.rings.emplace_back(ring.begin(), ring.end());
         size_t faces = out.faces.size(), segments = out.segments.size();
