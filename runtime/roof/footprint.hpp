@@ -37,8 +37,9 @@ enum class RidgeOrientation : uint32_t { along, across };
 // A stretch of a footprint's wall against which a neighbour's wall stands.
 struct SharedWall {
     glm::dvec2 from, to;  // plan metres, on an edge of the footprint
-    double top;           // metres from the ground that the neighbour's walls reach
-    bool endsRoof;        // the neighbour stands higher than this footprint's eave: the roof ends at the wall
+    double top;           // metres from the ground that the neighbour reaches
+    bool endsRoof;        // it stands higher than this footprint's eave: no eave may reach over the wall
+    bool alike;           // it is nearly as high or higher: both are of one row, and roofs end in gables
 };
 
 // Heights count from the ground, in metres (wiki.openstreetmap.org, Simple 3D Buildings).

@@ -16,6 +16,7 @@ constexpr double kGap = 0.3;          // metres between walls that count as one,
 constexpr double kLeastShared = 0.5;  // metres
 constexpr double kTurned = 0.996;     // cosine of 5 degrees
 constexpr double kLow = 0.3;          // metres: what stands higher than an eave by less is no obstacle
+constexpr double kAlike = 0.6;        // of one's walls' height that the other's have, if they stand in one row
 constexpr double kParapet = 0.6;      // metres above a flat roof
 constexpr double kStep = 1;           // metres: how exactly heights of parts that stand on each other agree
 constexpr uint64_t kMostTests = 50'000'000, kMostPairs = 4'000'000;
@@ -122,7 +123,9 @@ class Neighbours {
     }
     // `other` stands against a wall of the footprint. Roofs on posts leave windows free.
     static void note(Footprint& f, const Standing& own, const Wall& wall, const Footprint& other, const Standing& its) {
-        if (!other.open) f.shared.push_back({wall.from, wall.to, its.eave, its.top > own.eave + kLow});
+        if (other.open) return;
+        const bool endsRoof = its.top > own.eave + kLow;
+        f.shared.push_back({wall.from, wall.to, its.top, endsRoof, endsRoof || its.eave >= kAlike * own.eave});
     }
 
     std::vector<Footprint>& footprints_;

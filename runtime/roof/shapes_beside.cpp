@@ -33,7 +33,8 @@ std::vector<OutlineNeighbours::Stretch> OutlineNeighbours::stretchesOn(size_t ed
         double from = std::max(glm::dot(p, along), 0.0), to = std::min(glm::dot(q, along), length);
         if (from < kLeastPiece) from = 0;
         if (to > length - kLeastPiece) to = length;
-        if (to - from >= std::min(kLeastPiece, length)) found.push_back({from, to, {wall.top, wall.endsRoof}});
+        if (to - from >= std::min(kLeastPiece, length))
+            found.push_back({from, to, {wall.top, wall.endsRoof, wall.alike}});
     }
     std::sort(found.begin(), found.end(), [](const Stretch& s, const Stretch& t) { return s.from < t.from; });
     std::vector<Stretch> joined;
@@ -43,8 +44,7 @@ std::vector<OutlineNeighbours::Stretch> OutlineNeighbours::stretchesOn(size_t ed
             const bool alike = std::abs(last.beside.top - s.beside.top) < kSameTop || s.to < last.to + kLeastPiece;
             if (alike) {
                 last.to = std::max(last.to, s.to);
-                last.beside.top = std::max(last.beside.top, s.beside.top);
-                last.beside.endsRoof |= s.beside.endsRoof;
+                last.beside.add(s.beside);
                 continue;
             }
             s.from = last.to;
@@ -57,23 +57,24 @@ std::vector<OutlineNeighbours::Stretch> OutlineNeighbours::stretchesOn(size_t ed
 void OutlineNeighbours::closeLines() {
     for (size_t first = 0; first < along_.size(); ++first) {
         if (edges_.continues(first)) continue;
-        double length = 0, closed = 0, top = 0;
+        double length = 0, closed = 0;
+        Beside whole;
         std::vector<size_t> line;
         for (size_t e = first; line.empty() || (e != first && edges_.continues(e)); e = edges_.next[e]) {
             line.push_back(e);
             length += edges_.length(e);
             for (const Stretch& s : along_[e]) {
-                top = std::max(top, s.beside.top);
-                if (s.beside.endsRoof) closed += s.to - s.from;
+                whole.add(s.beside);
+                if (s.beside.alike) closed += s.to - s.from;
             }
         }
         if (closed == 0 || closed < length / 2) continue;
-        for (size_t e : line) along_[e] = {{0, edges_.length(e), {top, true}}};
+        for (size_t e : line) along_[e] = {{0, edges_.length(e), whole}};
     }
 }
 
 bool OutlineNeighbours::closes(size_t edge) const {
-    return along_[edge].size() == 1 && along_[edge][0].beside.endsRoof &&
+    return along_[edge].size() == 1 && along_[edge][0].beside.alike &&
            along_[edge][0].to - along_[edge][0].from >= edges_.length(edge);
 }
 
@@ -92,10 +93,7 @@ DividedOutline OutlineNeighbours::divide(const std::vector<std::vector<glm::dvec
             };
             if (whole(e)) {
                 Beside all;
-                for (const Stretch& s : along_[e]) {
-                    all.top = std::max(all.top, s.beside.top);
-                    all.endsRoof |= s.beside.endsRoof;
-                }
+                for (const Stretch& s : along_[e]) all.add(s.beside);
                 begin(0, all);
                 continue;
             }

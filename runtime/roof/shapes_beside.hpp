@@ -2,6 +2,7 @@
 
 // Neighbours along the edges of a house's outline.
 
+#include <algorithm>
 #include <functional>
 
 #include "runtime/roof/footprint.hpp"
@@ -11,8 +12,14 @@ namespace espalier {
 
 // What stands against an edge of an outline.
 struct Beside {
-    double top = 0;  // metres above the ground that a neighbour's walls reach; 0: none stands there
-    bool endsRoof = false;
+    double top = 0;                        // metres above the ground that a neighbour reaches; 0: none stands there
+    bool endsRoof = false, alike = false;  // as of SharedWall
+
+    void add(const Beside& other) {
+        top = std::max(top, other.top);
+        endsRoof |= other.endsRoof;
+        alike |= other.alike;
+    }
 };
 
 // An outline whose edges are divided where the neighbour beside them begins or ends.
@@ -26,8 +33,8 @@ class OutlineNeighbours {
   public:
     OutlineNeighbours(const std::vector<SharedWall>& shared, glm::dvec2 origin, const OutlineEdges& edges);
 
-    // Whether a neighbour ends the roof there. Walls in one line are closed as a whole, where at least half of them is:
-    // so a gable can stand on them.
+    // Whether the roof ends there in a gable if it can. Walls in one line are closed as a whole, where houses of one
+    // row stand against at least half of them.
     bool closes(size_t edge) const;
     // whole(edge): it isn't divided; a neighbour at any part of it counts for all of it.
     DividedOutline divide(const std::vector<std::vector<glm::dvec2>>& rings,
