@@ -13,11 +13,14 @@ using nlohmann::json;
 
 constexpr size_t kLongestTable = 1 << 16;  // bytes of a text that holds tags
 
-// Names of the same thing in other schemas: Overture's, and one that OpenStreetMap has given up.
+// Names of the same thing in other schemas, Overture's, and those that OpenStreetMap has given up.
 constexpr std::pair<const char*, const char*> kSynonyms[] = {
     {"building:levels", "num_floors"},
     {"building:min_level", "min_floor"},
     {"building:levels:underground", "num_floors_underground"},
+    {"height", "building:height"},
+    {"height", "est_height"},
+    {"min_height", "building:min_height"},
     {"roof:colour", "roof:color"},
     {"roof:colour", "roof_color"},
     {"roof:direction", "roof:slope:direction"},
