@@ -77,7 +77,7 @@ TEST_CASE("in a row no window, dormer or skylight looks into a neighbour, and no
             const float west = 9.f * float(grid.house & 0xFFFFFFu), east = west + 9;
             const bool first = west == 0, last = east == 45;
             // Boards and copings of fire walls stand out, and so does half of a cap on a hip.
-            const float room = g.is(grid, {"ridge"}) ? 0.2f : 0.06f;
+            const float room = g.is(grid, {"ridge"}) ? 0.25f : 0.06f;
             INFO(g.meshes.names[grid.mesh & 255u].name);
             const bool clipped = grid.region != kNoIndex;  // by its face's outline
             if (!first && !clipped) CHECK(low.x > west - room);
