@@ -318,6 +318,7 @@ typedef struct EspLook {         /* all numbers finite */
                                     beyond 8 fewer twigs, too; default 8 */
     int ground;                  /* 1: a meadow to the horizon under it all, only to be looked at; default 0 */
     float groundLevel;           /* its height in the world, metres */
+    int groundOvergrows;         /* 1: its grass grows over what of models lies almost as low, some 9 cm; default 1 */
 } EspLook;
 ESP_API EspLook espDefaultLook(void);
 /* For legends: the linear colour by which ESP_VIEW_DEPTH, ESP_VIEW_OVERDRAW, ESP_VIEW_LAYER, ESP_VIEW_LOD (levels, 0 the

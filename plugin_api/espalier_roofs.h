@@ -44,6 +44,9 @@ typedef struct EspTownInfo {
     float layerSide;         /* metres */
     uint32_t layerTexels;    /* a side */
     float groundHeight;      /* world */
+    double origin[2];        /* of the plan that EspTownDef::position places: degrees of longitude and latitude, or metres
+                                of a plan, which has an origin of its own if it lies more than 10 km from (0, 0) */
+    int geographic;          /* 1: they are degrees */
 } EspTownInfo;
 ESP_API EspResult espTownInfo(const EspContext* context, EspTownInfo* out);
 /* Replaces the whole layer, resampled from height rows of width floats in [0,1], 1 to 8192 each. out: an ended stroke to

@@ -47,6 +47,8 @@ class GridWriter {
             if (v.kind == kind && !lod_) lod_ = &v.lods.front();
         up_ = glm::cross(glm::vec3(g_.axisX), glm::vec3(g_.axisY));
         drops_ = mayDrop(env, g_);
+        const glm::vec2 plot = plotOf(env, g_.house);
+        plot_ = {plot.x, 0, plot.y};
         if (g_.region != kNoIndex) region_ = env.regions.v[g_.region];
         const glm::vec3 root(float(g_.colour & 255u), float(g_.colour >> 8 & 255u), float(g_.colour >> 16 & 255u));
         colour_ = root * root / (255.0f * 255.0f);
@@ -107,8 +109,8 @@ class GridWriter {
             glm::vec3 p = c.at;
             const float t = g_.extent.y > 0 && g_.extent.y < 1e5f ? p.y / g_.extent.y : 0;
             p.x += t * glm::mix(g_.taper.x, g_.taper.y, g_.extent.x > 0 ? p.x / g_.extent.x : 0);
-            out_.positions.push_back(glm::vec3(g_.origin) + glm::vec3(g_.axisX) * p.x + glm::vec3(g_.axisY) * p.y +
-                                     up_ * p.z);
+            out_.positions.push_back(plot_ + glm::vec3(g_.origin) + glm::vec3(g_.axisX) * p.x +
+                                     glm::vec3(g_.axisY) * p.y + up_ * p.z);
             out_.normals.push_back(
                 unitOf(glm::vec3(g_.axisX) * c.normal.x + glm::vec3(g_.axisY) * c.normal.y + up_ * c.normal.z));
             uint32_t colour = 0xFF000000u;
@@ -127,7 +129,7 @@ class GridWriter {
     const TerminalLod* lod_ = nullptr;
     RoofRegion region_{};
     bool drops_ = false;
-    glm::vec3 up_{}, colour_{};
+    glm::vec3 up_{}, colour_{}, plot_{};
 };
 
 }  // namespace

@@ -131,6 +131,8 @@ constexpr AccessorInfo kRoofAccessors[] = {
     {"houseTinted", kSlotHouseTinted, Where::onRoofs},
     {"houseOverhang", kSlotHouseOverhang, Where::onRoofs},
     {"houseChimneys", kSlotHouseChimneys, Where::onRoofs},
+    {"houseOpen", kSlotHouseOpen, Where::onRoofs},
+    {"wallShared", kSlotWallShared, Where::onRoofs},
     {"cornerStart", kSlotCorners, Where::onRoofs},
     {"cornerEnd", kSlotCorners + 1, Where::onRoofs},
     {"index", kSlotIndex, Where::onRoofs},

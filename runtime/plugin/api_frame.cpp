@@ -128,6 +128,7 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
     if (def.look.ground) {
         inputs.ground.drawn = true;
         inputs.ground.height = def.look.groundLevel;
+        inputs.ground.overgrows = def.look.groundOvergrows != 0;
     }
     if (def.scene) inputs.ground.drawn = false;  // the ground of a host's scene is the host's
     inputs.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
@@ -235,6 +236,7 @@ EspLook espDefaultLook(void) {
     out.lodPixels = look.lodPixels;
     out.leafPixels = look.leafPixels;
     out.viewOpacity = look.layerOpacity;
+    out.groundOvergrows = 1;
     return out;
 }
 

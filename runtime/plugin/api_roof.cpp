@@ -44,11 +44,13 @@ void tell(EspContext& context, const std::vector<Diagnostic>& all) {
 // The footprint where the def places it: the plan is turned about its origin, then moved.
 void place(Footprint& f, const EspTownDef& def) {
     const double c = std::cos(double(def.turn)), s = std::sin(double(def.turn));
+    const auto turn = [&](glm::dvec2& p) {
+        p = {c * p.x - s * p.y + double(def.position[0]), s * p.x + c * p.y - double(def.position[2])};
+    };
     for (auto& ring : f.rings)
-        for (glm::dvec2& p : ring)
-            p = {c * p.x - s * p.y + double(def.position[0]), s * p.x + c * p.y - double(def.position[2])};
-    f.baseHeight += double(def.position[1]);
-    if (f.height) *f.height += double(def.position[1]);
+        for (glm::dvec2& p : ring) turn(p);
+    for (SharedWall& wall : f.shared) turn(wall.from), turn(wall.to);
+    f.ground = double(def.position[1]);
     if (f.direction) *f.direction -= double(def.turn);  // clockwise from north
 }
 
@@ -71,6 +73,8 @@ Result<LoadedTown> prepare(EspContext& context, const EspTownDef& def) {
     const auto begin = std::chrono::steady_clock::now();
     std::vector<Diagnostic> diagnostics = std::move(read->diagnostics);
     town.footprints = std::move(read->footprints);
+    town.origin = read->origin;
+    town.geographic = read->geographic;
     for (uint32_t i = 0; i < town.footprints.size(); ++i) {
         place(town.footprints[i], def);
         std::vector<Diagnostic> said;

@@ -203,6 +203,8 @@ struct ChangedHouse {
 struct LoadedTown {
     std::string name;
     std::vector<Footprint> footprints;               // as they were loaded
+    glm::dvec2 origin{0};                            // as of Town
+    bool geographic = false;                         // likewise
     std::vector<uint32_t> footprintOf;               // [house]; an outline that crosses itself makes several
     std::map<uint32_t, ChangedHouse> changedHouses;  // [house]
     RoofStructure structure;

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "runtime/core/srgb.hpp"
-#include "runtime/roof/shapes.hpp"
+#include "runtime/roof/footprint_heights.hpp"
 
 namespace espalier {
 namespace {
@@ -122,6 +122,7 @@ Footprint footprintFor(const Footprint& plan, const RoofHouse& planned, const Ho
     Footprint f = plan;
     takeLook(wish.look, f);
     if (standsAsPlanned(plan, planned, wish)) return f;
+    f.shaped = f.shaped || wish.shape != plan.shape;
     f.shape = wish.shape;
     f.slope.reset();
     if (wish.slope > 0) f.slope = wish.slope;
@@ -135,7 +136,8 @@ Footprint footprintFor(const Footprint& plan, const RoofHouse& planned, const Ho
     if (wish.eaveHeight != wallsOf(planned) || f.height) {
         // Heights to the ridge depend on the roof; walls shall stay what they are.
         f.height.reset();
-        f.levels = wish.eaveHeight / 3.0;
+        f.levels.reset();
+        f.wallHeight = wish.eaveHeight;
     }
     f.edges.clear();
     for (const EspHouseEdge& edge : wish.edges) {

@@ -85,6 +85,9 @@ EspResult espTownInfo(const EspContext* context, EspTownInfo* out) {
         out->layerSide = float(site.size) / site.perMetre;
         out->layerTexels = site.size;
         out->groundHeight = context->town->ground.height;
+        out->origin[0] = context->town->origin.x;
+        out->origin[1] = context->town->origin.y;
+        out->geographic = context->town->geographic ? 1 : 0;
         return ESP_OK;
     });
 }

@@ -40,11 +40,12 @@ EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices,
     env.planes.v = records->planes.data();
     env.meshes.v = context.roofBounds.data();
     env.layers.v = layers;
+    env.plots.v = records->plots.data();
     env.site = context.town->layers.site();
     const size_t plants = vertices.size() + indices.size();
     RoofTriangles part;
     for (const RoofGrid& grid : records->grids) {
-        if (records->generations[grid.house & 0xFFFFFFu] != grid.house >> 24) continue;
+        if (records->plots[grid.house & 0xFFFFFFu].generation != grid.house >> 24) continue;
         part.positions.clear();
         part.normals.clear();
         part.colours.clear();

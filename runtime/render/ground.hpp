@@ -15,6 +15,7 @@ struct GroundLook {
     bool drawn = false;
     float height = 0;                          // world, metres
     glm::vec3 colour{0.085f, 0.105f, 0.045f};  // of its grass, linear
+    bool overgrows = true;                     // what of models lies almost as low
 };
 
 // What lies on the meadow of a site, seen from above: 8-bit RGBA, the first row at low.y (world z). Red: 0.5 at a

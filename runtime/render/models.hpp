@@ -39,8 +39,8 @@ class Models {
     void choose(const FrameRecord& frame, float pixels, bool atOnce = false);
     static constexpr uint32_t kFadeFrames = 8;
 
-    // Draws all of them as chosen, but for those that are ground only if `drawnOnly`: triangles that the meadow at
-    // groundLevel, in metres of `unit`, may reach by `foot`, all others by `program`. ground: of it the meadow is made,
+    // Draws all of them as chosen, but for those that are ground only if `drawnOnly`: triangles over which the meadow at
+    // meadowLevel, in metres of `unit`, may grow by `foot`, all others by `program`. ground: of it the meadow is made,
     // and their grain.
     struct Drawn {
         const Program &program, &foot;
@@ -49,7 +49,7 @@ class Models {
         const Ground& ground;
         Shading shading = Shading::full;
         bool walkData = false, drawnOnly = false;
-        float groundLevel = 0, unit = 1;
+        float meadowLevel = 0, unit = 1;
     };
     void draw(DrawPass& pass, const Drawn& with) const;
     // The depths of what draw() draws without cut-outs: they go ahead, so that it shades only what is seen. fading: for

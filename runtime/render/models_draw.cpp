@@ -124,7 +124,7 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
                 ModelPush push = pushOf(model, which, material, with.walkData ? index : kNoIndex);
                 push.fade = fade;
                 pass.drawBacks(showsBacks(model, mesh, material));
-                const uint32_t foot = footOf(model, mesh, r, with.groundLevel, with.unit);
+                const uint32_t foot = footOf(model, mesh, r, with.meadowLevel, with.unit);
                 const auto drawPart = [&](const Program& program, uint32_t first, uint32_t count) {
                     if (count == 0) return;
                     pass.drawIndexed(program, {count, range.firstIndex + first, mesh.firstVertex}, push,

@@ -95,7 +95,7 @@ void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, co
                         now_.shading,
                         inputs.surfaces.v != nullptr,
                         !onGround,
-                        now_.groundLevel,
+                        now_.meadowLevel,
                         now_.unit});
     if (now_.furnished) {
         begin("draw props");
@@ -280,7 +280,7 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
 
     FrameRecord frame = makeFrame(inputs, target.width, target.height);
     if (Status s = keepShadows(commands, inputs, frame); !s) return s;
-    now_.groundLevel = frame.groundLevel;
+    now_.meadowLevel = inputs.ground.overgrows ? frame.groundLevel : kNoGround;
     now_.unit = frame.unit;
     ground_.describe(frame);
     if (Status s = upload(commands, frame); !s) return s;

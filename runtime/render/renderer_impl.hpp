@@ -127,7 +127,7 @@ class RendererImpl final : public Renderer {
         bool plain = false;  // growth and props are drawn as in the shaded view
         bool lit = false;    // what has few vertices has been lit ahead
         bool ahead = false;  // models' depths went ahead, they are shaded after growth
-        float groundLevel = 0, unit = 1;
+        float meadowLevel = 0, unit = 1;  // where grass grows over models
         const Buffer* frame = nullptr;
         bool shadowsBehind = false;  // what this picture shows
     } now_;

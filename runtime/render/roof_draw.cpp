@@ -123,7 +123,7 @@ Status RoofDraw::cull(Commands& commands, const RoofView& roofs, const EmitView&
     env.roofs.parts = roofs.parts;
     env.roofs.planes = roofs.planes;
     env.roofs.meshes = roofs.meshes;
-    env.roofs.generations = roofs.generations;
+    env.roofs.plots = roofs.plots;
     env.roofs.layers = roofs.layers;
     env.roofs.site = roofs.site;
     env.shownLayer = roofs.shownLayer;

@@ -34,20 +34,34 @@ enum class RoofMaterial : uint32_t {
 
 enum class RidgeOrientation : uint32_t { along, across };
 
+// A stretch of a footprint's wall against which a neighbour's wall stands.
+struct SharedWall {
+    glm::dvec2 from, to;  // plan metres, on an edge of the footprint
+    double top;           // metres from the ground that the neighbour reaches
+    bool endsRoof;        // it stands higher than this footprint's eave: no eave may reach over the wall
+    bool alike;           // it is nearly as high or higher: both are of one row, and roofs end in gables
+};
+
+// Heights count from the ground, in metres (wiki.openstreetmap.org, Simple 3D Buildings).
 struct Footprint {
     std::string id;
     std::vector<std::vector<glm::dvec2>> rings;  // plan metres, not closed; outer ring first, any orientation
     std::vector<EdgeRoof> edges;                 // numbers over the rings as given
     RoofShape shape = RoofShape::hip;
-    bool part = false;                 // building:part: stands for its share of an outline
-    std::optional<double> roofHeight;  // metres from eave to ridge; else slope counts
-    std::optional<double> slope;       // tangent of the pitch; else the shape's own
-    std::optional<double> direction;   // radians clockwise from north, where the roof falls to: sheds
-    RidgeOrientation orientation = RidgeOrientation::along;  // the ridge along the house's length, or across it
-    double baseHeight = 0;             // metres above the ground plane: building:min_level, min_height
-    std::optional<double> height;      // from the ground to the ridge
-    std::optional<double> levels;      // storeys below the roof
-    std::optional<double> roofLevels;  // storeys in the roof
+    bool shaped = false;                          // the shape was asked for; else it is what suits the outline
+    bool part = false;                            // building:part: stands for its share of an outline
+    bool open = false;                            // a roof on posts, without walls
+    std::optional<double> roofHeight;             // metres from eave to ridge; else slope counts
+    std::optional<double> slope;                  // tangent of the pitch; else the shape's own
+    std::optional<double> direction;              // radians clockwise from north, where the roof falls to
+    std::optional<RidgeOrientation> orientation;  // the ridge along the house's length, or across it
+    double ground = 0;                            // of the place where it stands, above the ground plane
+    double baseHeight = 0;                        // of the walls' foot: building:min_level, min_height
+    std::optional<double> height;                 // of the ridge
+    std::optional<double> levels;                 // storeys from the ground to the eave
+    std::optional<double> roofLevels;             // storeys in the roof
+    std::optional<double> wallHeight;             // from the walls' foot to the eave, whatever else says: a designer's
+    std::vector<SharedWall> shared;               // walls against which neighbours stand
     RoofMaterial material = RoofMaterial::unknown;
     uint32_t colour = 0;    // 0xAABBGGRR
     float overhang = 0;     // of the eaves, metres; 0: as the grammar says
@@ -56,7 +70,8 @@ struct Footprint {
 
 // A town: footprints in plan metres around an origin, and what was wrong with the features that are missing or mended.
 struct Town {
-    glm::dvec2 originLonLat{0};  // degrees; 0, 0 for plans in metres
+    glm::dvec2 origin{0};     // where the plan's (0, 0) lies: degrees of longitude and latitude, or metres of the file
+    bool geographic = false;  // the origin is in degrees
     std::vector<Footprint> footprints;
     std::vector<Diagnostic> diagnostics;  // rule: the feature's id
 };

@@ -5,7 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/core/file.hpp"
+#include "runtime/roof/footprint_crs.hpp"
+#include "runtime/roof/footprint_kinds.hpp"
+#include "runtime/roof/footprint_neighbours.hpp"
 #include "runtime/roof/footprint_parts.hpp"
+#include "runtime/roof/footprint_place.hpp"
 #include "runtime/roof/footprint_tags.hpp"
 
 namespace espalier {
@@ -15,68 +19,56 @@ namespace {
 using nlohmann::json;
 using Ring = std::vector<glm::dvec2>;
 
-constexpr double kFarthest = 100000;  // metres from the town's middle
 constexpr size_t kMostFeatures = 4u << 20;
+constexpr double kNearestPole = 85;  // degrees of latitude
+constexpr const char* kConvert =
+    "Convert it to WGS 84 first, for example with ogr2ogr -t_srs EPSG:4326 NEW.geojson OLD.geojson";
 
 class Reader {
   public:
-    Reader(const std::string& file, bool metres) : file_(file), metres_(metres) {}
+    // crs: of a GeoJSON; none for plans in metres.
+    Reader(const std::string& file, Listing listing, std::optional<CoordinateSystem> crs)
+        : file_(file), listing_(listing), crs_(crs) {}
     Town town;
 
     void feature(const json& feature, size_t number) {
         if (!feature.is_object()) return say("feature " + std::to_string(number), "is not an object: left out");
-        const json& tags = feature.contains("properties") ? feature["properties"] : feature;
-        std::string id = idOf(feature, tags, number);
+        const json& properties = feature.contains("properties") ? feature["properties"] : feature;
+        const std::string id = idOf(feature, properties, number);
+        const FeatureTags tags(properties);
+        if (std::optional<std::string> why = whyNoHouse(tags, listing_)) return leftOut_.add(std::move(*why));
         std::vector<Diagnostic> said;
         tellUnknownTags(tags, file_, id, said);
         addMessages(town.diagnostics, std::move(said));
-        if (metres_) return plan(feature, id);
+        if (!crs_) return plan(feature, tags, id);
         if (!feature.contains("geometry")) return say(id, "has no geometry: left out");
         geometry(feature["geometry"], tags, id);
     }
 
-    void geometry(const json& geometry, const json& tags, const std::string& id) {
+    void geometry(const json& geometry, const FeatureTags& tags, const std::string& id) {
         if (!geometry.is_object() || !geometry.contains("type") || !geometry["type"].is_string())
             return say(id, "has no geometry: left out");
-        std::string type = geometry["type"].get<std::string>();
-        if (type != "Polygon" && type != "MultiPolygon")
-            return say(id, "is a " + type.substr(0, 40) + ", not a Polygon or MultiPolygon: left out");
+        const std::string type = geometry["type"].get<std::string>();
+        if (type == "Point" || type == "MultiPoint" || type == "MultiLineString") return leftOut_.add(type);
         if (!geometry.contains("coordinates") || !geometry["coordinates"].is_array())
             return say(id, "has no coordinates: left out");
         const json& coordinates = geometry["coordinates"];
+        if (type == "LineString") return line(coordinates, tags, id);
         if (type == "Polygon") return polygon(coordinates, tags, id);
+        if (type != "MultiPolygon")
+            return say(id, "is a " + type.substr(0, 40) + ", not a Polygon or MultiPolygon: left out");
         for (size_t i = 0; i < coordinates.size(); i++)
             polygon(coordinates[i], tags, coordinates.size() == 1 ? id : id + "#" + std::to_string(i + 1));
     }
 
-    // Degrees become metres about the town's middle: the median of the features, which one stray feature doesn't move.
-    void place() {
-        if (metres_ || town.footprints.empty()) return;
-        std::vector<double> lon, lat;
-        for (const Footprint& f : town.footprints) lon.push_back(f.rings[0][0].x), lat.push_back(f.rings[0][0].y);
-        auto median = [](std::vector<double>& v) {
-            std::nth_element(v.begin(), v.begin() + std::ptrdiff_t(v.size() / 2), v.end());
-            return v[v.size() / 2];
-        };
-        town.originLonLat = {median(lon), median(lat)};
-        // WGS 84's radii of curvature there.
-        constexpr double a = 6378137, e2 = 6.69437999014e-3;
-        double phi = glm::radians(town.originLonLat.y), w = 1 - e2 * std::sin(phi) * std::sin(phi);
-        glm::dvec2 metres =
-            glm::radians(1.0) * glm::dvec2(a / std::sqrt(w) * std::cos(phi), a * (1 - e2) / (w * std::sqrt(w)));
-        auto far = [&](Footprint& f) {
-            double farthest = 0;
-            for (Ring& ring : f.rings)
-                for (glm::dvec2& p : ring) {
-                    p = (p - town.originLonLat) * metres;
-                    farthest = std::max(farthest, glm::length(p));
-                }
-            if (farthest <= kFarthest) return false;
-            say(f.id, "lies more than 100 km from the middle of the town: left out");
-            return true;
-        };
-        std::vector<Footprint>& all = town.footprints;
-        all.erase(std::remove_if(all.begin(), all.end(), far), all.end());
+    // The town in metres, without what stands twice. Fails where none of its coordinates can be meant.
+    Status finish() {
+        if (Status sound = judgeCoordinates(); !sound) return sound;
+        placeTown(town, crs_.has_value(), file_);
+        leaveOutlinesToParts(town);
+        findNeighbours(town);
+        if (!leftOut_.empty()) addMessages(town.diagnostics, {{file_, 0, 0, {}, leftOut_.text(), true}});
+        return Done{};
     }
 
     void say(const std::string& id, const std::string& what) {
@@ -84,9 +76,9 @@ class Reader {
     }
 
   private:
-    static std::string idOf(const json& feature, const json& tags, size_t number) {
-        for (const json* object : {&feature, &tags})
-            for (const char* key : {"id", "@id", "osm", "osm_id"}) {
+    static std::string idOf(const json& feature, const json& properties, size_t number) {
+        for (const json* object : {&feature, &properties})
+            for (const char* key : {"id", "@id", "osm", "osm_id", "full_id", "osmid", "osm_way_id"}) {
                 if (!object->is_object() || !object->contains(key)) continue;
                 const json& id = (*object)[key];
                 if (id.is_string()) return id.get<std::string>().substr(0, 100);
@@ -96,15 +88,26 @@ class Reader {
     }
 
     // {"outer": [[x, y], ...], "holes": [...]} with the tags beside them.
-    void plan(const json& building, const std::string& id) {
+    void plan(const json& building, const FeatureTags& tags, const std::string& id) {
         if (!building.contains("outer")) return say(id, "has no outer ring: left out");
         std::vector<const json*> rings{&building["outer"]};
         if (building.contains("holes") && building["holes"].is_array())
             for (const json& hole : building["holes"]) rings.push_back(&hole);
-        polygon(rings, building, id);
+        polygon(rings, tags, id);
     }
 
-    void polygon(const json& coordinates, const json& tags, const std::string& id) {
+    // A closed way: some programs write outlines so.
+    void line(const json& points, const FeatureTags& tags, const std::string& id) {
+        const auto at = [](const json& point, size_t axis) {
+            return point.is_array() && point.size() > axis && point[axis].is_number() ? point[axis].get<double>() : NAN;
+        };
+        const bool closed = points.size() >= 4 && at(points.front(), 0) == at(points.back(), 0) &&
+                            at(points.front(), 1) == at(points.back(), 1);
+        if (!namesBuilding(tags) || !closed) return leftOut_.add("LineString");
+        polygon(std::vector<const json*>{&points}, tags, id);
+    }
+
+    void polygon(const json& coordinates, const FeatureTags& tags, const std::string& id) {
         if (!coordinates.is_array() || coordinates.empty()) return say(id, "has no rings: left out");
         std::vector<const json*> rings;
         for (const json& ring : coordinates) rings.push_back(&ring);
@@ -112,7 +115,7 @@ class Reader {
     }
 
     // Not copied: a copy recurses, however deep a file nests.
-    void polygon(const std::vector<const json*>& rings, const json& tags, const std::string& id) {
+    void polygon(const std::vector<const json*>& rings, const FeatureTags& tags, const std::string& id) {
         Footprint f;
         f.id = id;
         size_t corners = 0;
@@ -135,25 +138,98 @@ class Reader {
         town.footprints.push_back(std::move(f));
     }
 
-    const char* readRing(const json& points, Ring& ring) const {
+    const char* readRing(const json& points, Ring& ring) {
         if (!points.is_array()) return "is not a list of points";
         ring.reserve(points.size());
         for (const json& p : points) {
             if (!p.is_array() || p.size() < 2 || !p[0].is_number() || !p[1].is_number())
                 return "has a point that isn't two numbers";
             glm::dvec2 q(p[0].get<double>(), p[1].get<double>());
-            if (!std::isfinite(q.x) || !std::isfinite(q.y)) return "has a coordinate that is no number";
-            if (metres_ ? std::abs(q.x) > 1e7 || std::abs(q.y) > 1e7 : std::abs(q.x) > 180 || std::abs(q.y) > 85)
-                return metres_ ? "has a coordinate beyond 10,000 km" : "has a coordinate out of range (degrees)";
+            if (const char* problem = bring(q)) return problem;
             ring.push_back(q);
         }
         if (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
         return ring.size() < 3 ? "has fewer than three corners" : nullptr;
     }
 
+    // To degrees, or metres of a plan. Returns what is wrong with it.
+    const char* bring(glm::dvec2& q) {
+        if (!std::isfinite(q.x) || !std::isfinite(q.y)) return "has a coordinate that is no number";
+        if (!crs_) return std::abs(q.x) > 1e7 || std::abs(q.y) > 1e7 ? "has a coordinate beyond 10,000 km" : nullptr;
+        const bool likeDegrees = std::abs(q.x) <= 180 && std::abs(q.y) <= 90;
+        (likeDegrees ? likeDegrees_ : unlikeDegrees_) = q;
+        if (crs_->degrees() && !likeDegrees) return "has a coordinate out of range (degrees)";
+        q = crs_->toDegrees(q);
+        if (!(std::abs(q.x) <= 540) || !(std::abs(q.y) <= 90)) return "has a coordinate that its crs doesn't reach";
+        return std::abs(q.y) > kNearestPole ? "has a coordinate out of range: too near a pole" : nullptr;
+    }
+
+    // Where every coordinate is of the wrong kind, that is one mistake of the file's and none of its features'.
+    Status judgeCoordinates() const {
+        const std::optional<glm::dvec2>& wrong = crs_ && crs_->degrees() ? unlikeDegrees_ : likeDegrees_;
+        const std::optional<glm::dvec2>& right = crs_ && crs_->degrees() ? likeDegrees_ : unlikeDegrees_;
+        if (!wrong || right) return Done{};
+        char at[80];
+        std::snprintf(at, sizeof at, "%.10g, %.10g", wrong->x, wrong->y);
+        if (crs_->degrees())
+            return Failure(file_, std::string("its coordinates, such as ") + at +
+                                      ", are not WGS 84's degrees, and it names no crs in metres. " + kConvert);
+        return Failure(file_, std::string("its crs is one in metres, not WGS 84, but its coordinates, such as ") + at +
+                                  ", look like degrees. " + kConvert);
+    }
+
     const std::string& file_;
-    const bool metres_;
+    const Listing listing_;
+    const std::optional<CoordinateSystem> crs_;
+    std::optional<glm::dvec2> likeDegrees_, unlikeDegrees_;  // one of each kind of coordinates, if there is any
+    LeftOut leftOut_;
 };
+
+// What the file as a whole says of its features.
+Listing listingOf(const json& features) {
+    for (const json& feature : features) {
+        if (!feature.is_object()) continue;
+        const auto properties = feature.find("properties");
+        if (properties != feature.end() && namesBuilding(FeatureTags(*properties))) return Listing::tagged;
+    }
+    return Listing::bare;
+}
+
+// The system of a GeoJSON's coordinates; `said` gets a warning where it isn't WGS 84.
+Result<CoordinateSystem> systemOf(const json& document, const std::string& file, std::vector<Diagnostic>& said) {
+    const std::optional<std::string> name = crsName(document);
+    const std::optional<int> epsg = name ? epsgOf(*name) : 4326;
+    const std::optional<CoordinateSystem> crs = epsg ? CoordinateSystem::of(*epsg) : std::nullopt;
+    const std::string is = "its crs is '" + name.value_or("").substr(0, 80) + "', not WGS 84";
+    if (!crs) return Failure(file, is + ", and none that is known. " + kConvert);
+    if (*epsg != 4326)
+        said.push_back(
+            {file,
+             0,
+             0,
+             {},
+             is + (crs->degrees() ? ": its degrees are taken for WGS 84's" : ": its metres are brought to degrees"),
+             true});
+    return *crs;
+}
+
+Result<json> parseJson(const std::string& text, const std::string& file) {
+    try {
+        return json::parse(text);
+    } catch (const json::parse_error& error) {
+        // byte counts from 1
+        size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
+        int line = 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
+        size_t lineStart = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
+        int column = int(at - (lineStart == std::string::npos ? 0 : lineStart + 1)) + 1;
+        std::string what = error.what();
+        size_t cause = what.find("syntax error");
+        what = (cause == std::string::npos ? what : what.substr(cause)).substr(0, 160);
+        return Failure(Diagnostic{file, line, column, {}, "is not JSON: " + what});
+    } catch (const std::exception& error) {
+        return Failure(file, std::string("is not JSON that can be read: ") + error.what());
+    }
+}
 
 }  // namespace
 
@@ -168,47 +244,33 @@ void addMessages(std::vector<Diagnostic>& all, std::vector<Diagnostic> more) {
 }
 
 Result<Town> parseFootprints(const std::string& text, const std::string& file) {
-    json document;
-    try {
-        document = json::parse(text);
-    } catch (const json::parse_error& error) {
-        // byte counts from 1
-        size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
-        int line = 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
-        size_t lineStart = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
-        int column = int(at - (lineStart == std::string::npos ? 0 : lineStart + 1)) + 1;
-        std::string what = error.what();
-        size_t cause = what.find("syntax error");
-        return Failure(
-            Diagnostic{file,
-                       line,
-                       column,
-                       {},
-                       "is not JSON: " + (cause == std::string::npos ? what : what.substr(cause)).substr(0, 160)});
-    } catch (const std::exception& error) {
-        return Failure(file, std::string("is not JSON that can be read: ") + error.what());
-    }
+    Result<json> parsed = parseJson(text, file);
+    if (!parsed) return parsed.failure();
+    const json& document = *parsed;
     if (!document.is_object()) return Failure(file, "is neither GeoJSON nor a plan: not an object");
-    bool metres = document.contains("buildings");
-    std::string type =
+    const bool plan = document.contains("buildings");
+    const std::string type =
         document.contains("type") && document["type"].is_string() ? document["type"].get<std::string>() : "";
-    Reader reader(file, metres);
-    const json* list = metres                          ? &document["buildings"]
-                       : document.contains("features") ? &document["features"]
-                                                       : nullptr;
+    const json* list = plan ? &document["buildings"] : document.contains("features") ? &document["features"] : nullptr;
+    if (list && !list->is_array()) return Failure(file, "has no list of features or buildings");
+    if (list && list->size() > kMostFeatures) return Failure(file, "has more than 4 million features");
+    std::vector<Diagnostic> said;
+    std::optional<CoordinateSystem> crs;
+    if (!plan)
+        if (Status known = assign(crs, systemOf(document, file, said)); !known) return known.failure();
+    Reader reader(file, plan ? Listing::plan : list ? listingOf(*list) : Listing::bare, crs);
+    reader.town.diagnostics = std::move(said);
     if (list) {
-        if (!list->is_array()) return Failure(file, "has no list of features or buildings");
-        if (list->size() > kMostFeatures) return Failure(file, "has more than 4 million features");
         for (size_t i = 0; i < list->size(); i++) reader.feature((*list)[i], i);
     } else if (type == "Feature") {
         reader.feature(document, 0);
     } else if (type == "Polygon" || type == "MultiPolygon") {
-        reader.geometry(document, json::object(), "feature 0");
+        const json untold;
+        reader.geometry(document, FeatureTags(untold), "feature 0");
     } else {
         return Failure(file, "is neither GeoJSON with features nor a plan with buildings");
     }
-    reader.place();
-    leaveOutlinesToParts(reader.town);
+    if (Status placed = reader.finish(); !placed) return placed.failure();
     return std::move(reader.town);
 }
 

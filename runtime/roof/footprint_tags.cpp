@@ -1,14 +1,15 @@
-// In: a feature's properties. Out: the footprint's shape, heights, slopes and look (wiki.openstreetmap.org,
+// In: a feature's tags. Out: the footprint's shape, heights, slopes and look (wiki.openstreetmap.org,
 // Simple 3D Buildings), and `edges`, which is ours: [{"edge": 2, "gable": true, "angle": 35}].
 #include "runtime/roof/footprint_tags.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <map>
-#include <nlohmann/json.hpp>
+
+#include "runtime/roof/footprint_heights.hpp"
+#include "runtime/roof/footprint_kinds.hpp"
+#include "runtime/roof/footprint_values.hpp"
 
 namespace espalier {
 
@@ -32,6 +33,10 @@ constexpr NamedShape kShapes[] = {
     {"dome", RoofShape::pyramid, false},       {"onion", RoofShape::pyramid, false},
     {"cone", RoofShape::pyramid, false},       {"round", RoofShape::gable, false},
     {"saltbox", RoofShape::gable, false},      {"cross_gabled", RoofShape::gable, false},
+    {"spherical", RoofShape::pyramid, false},  {"double_saltbox", RoofShape::gable, false},
+    {"sawtooth", RoofShape::flat, false},      {"hipped-and-gabled", RoofShape::halfHip, false},
+    {"side_hipped", RoofShape::hip, false},    {"gabled_height_moved", RoofShape::gable, false},
+    {"butterfly", RoofShape::flat, false},     {"pitched", RoofShape::gable, false},
 };
 
 constexpr std::pair<const char*, RoofMaterial> kMaterials[] = {
@@ -65,42 +70,17 @@ constexpr std::pair<const char*, uint32_t> kColours[] = {
     {"lime", 0x00ff00},  {"aqua", 0x00ffff},   {"pink", 0xffc0cb},   {"firebrick", 0xb22222}, {"sienna", 0xa0522d},
 };
 
-constexpr const char* kCompass[] = {"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
-                                    "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
-
-constexpr size_t kLongest = 100;  // bytes of a text that may mean something: each polygon of a feature looks at it
-
-std::string lower(std::string s) {
-    for (char& c : s) c = char(std::tolower(static_cast<unsigned char>(c)));
-    return s;
-}
-
 class Tags {
   public:
-    Tags(const json& tags, const std::string& file, Footprint& f, std::vector<Diagnostic>& diagnostics)
+    Tags(const FeatureTags& tags, const std::string& file, Footprint& f, std::vector<Diagnostic>& diagnostics)
         : tags_(tags), file_(file), f_(f), diagnostics_(diagnostics) {}
 
     void apply() {
+        f_.part = tags_.says("building:part") || tags_.text("type") == "building_part";
+        f_.open = isOpen(tags_);
+        if (f_.open) f_.shape = RoofShape::flat;  // what most canopies have
         shape();
-        const json* part = find("building:part");
-        f_.part = part && *part != "no";
-        number("height", 0.1, 1000, f_.height);
-        number("building:levels", 0, 300, f_.levels);
-        number("roof:levels", 0, 50, f_.roofLevels);
-        number("roof:height", 0, 500, f_.roofHeight);
-        if (f_.roofHeight && *f_.roofHeight == 0) f_.roofHeight.reset(), f_.shape = RoofShape::flat;
-        std::optional<double> angle = f_.slope ? std::optional(std::atan(*f_.slope)) : std::nullopt;
-        if (number("roof:angle", 0, 85, angle)) {
-            f_.slope = std::tan(glm::radians(*angle));
-            if (*angle == 0) f_.slope.reset(), f_.shape = RoofShape::flat;
-        }
-        std::optional<double> least, storeys;
-        if (number("building:min_level", 0, 300, storeys)) f_.baseHeight = 3 * *storeys;
-        if (number("min_height", 0, 1000, least)) f_.baseHeight = *least;
-        if (f_.height && *f_.height <= f_.baseHeight) {
-            warn("height", "is not above min_height");
-            f_.baseHeight = 0;
-        }
+        heights();
         direction();
         orientation();
         material();
@@ -109,41 +89,24 @@ class Tags {
     }
 
   private:
-    void warn(const std::string& key, const std::string& what) {
-        diagnostics_.push_back({file_, 0, 0, f_.id, key + " " + what + ": ignored", true});
-    }
-    const json* find(const char* key) const {
-        auto it = tags_.find(key);
-        return it == tags_.end() || it->is_null() ? nullptr : &*it;
+    void warn(const std::string& key, const std::string& what) { note(key, what + ": ignored"); }
+    void note(const std::string& key, const std::string& what) {
+        diagnostics_.push_back({file_, 0, 0, f_.id, key + " " + what, true});
     }
     std::optional<std::string> text(const char* key) {
-        const json* value = find(key);
+        const json* value = tags_.find(key);
         if (!value) return {};
-        if (value->is_string()) return value->get_ref<const std::string&>().substr(0, kLongest);
+        if (value->is_string()) return value->get_ref<const std::string&>().substr(0, kLongestValue);
         warn(key, "is not a text");
         return {};
     }
     static std::string shown(const std::string& s) { return "'" + s.substr(0, 40) + "'"; }
 
-    // A number, with metres or degrees written after it or not.
-    static std::optional<double> parse(const json& value) {
-        if (value.is_number()) return value.get<double>();
-        if (!value.is_string()) return {};
-        const std::string& s = value.get_ref<const std::string&>();
-        if (s.size() > kLongest) return {};
-        double d = 0;
-        auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), d);
-        if (error != std::errc()) return {};
-        std::string unit(end, size_t(s.data() + s.size() - end));
-        unit.erase(std::remove(unit.begin(), unit.end(), ' '), unit.end());
-        if (unit == "'" || unit == "ft") return d * 0.3048;
-        if (unit.empty() || unit == "m" || unit == "°" || unit == "deg") return d;
-        return {};
-    }
-    bool number(const char* key, double low, double high, std::optional<double>& out) {
-        const json* value = find(key);
+    using Read = std::optional<double> (*)(const json&);
+    bool number(const char* key, Read read, double low, double high, std::optional<double>& out) {
+        const json* value = tags_.find(key);
         if (!value) return false;
-        std::optional<double> n = parse(*value);
+        std::optional<double> n = read(*value);
         if (!n || !std::isfinite(*n)) {
             warn(key, "is not a number");
             return false;
@@ -158,27 +121,62 @@ class Tags {
         return true;
     }
 
+    // All from the ground; levels below `building:min_level` are counted, though they aren't this part's.
+    void heights() {
+        number("height", readLength, 0.1, 1000, f_.height);
+        number("building:levels", readNumber, 0, 300, f_.levels);
+        number("roof:levels", readNumber, 0, 50, f_.roofLevels);
+        number("roof:height", readLength, 0, 500, f_.roofHeight);
+        if (f_.roofHeight && *f_.roofHeight == 0) f_.roofHeight.reset(), flat();
+        std::optional<double> angle = f_.slope ? std::optional(std::atan(*f_.slope)) : std::nullopt;
+        if (number("roof:angle", readNumber, 0, 85, angle)) {
+            f_.slope = std::tan(glm::radians(*angle));
+            if (*angle == 0) f_.slope.reset(), flat();
+        }
+        std::optional<double> least, storeys;
+        if (number("building:min_level", readNumber, 0, 300, storeys)) f_.baseHeight = kStorey * *storeys;
+        if (number("min_height", readLength, 0, 1000, least)) f_.baseHeight = *least;
+        if (f_.height && *f_.height <= f_.baseHeight) {
+            warn("height", "is not above min_height");
+            f_.baseHeight = 0;
+        }
+        countFromFoot(storeys);
+        if (f_.open && !f_.part) standOnPosts();
+        if (f_.height && f_.roofHeight && *f_.roofHeight > *f_.height - f_.baseHeight + 0.01)
+            note("roof:height", "is more than the building's height: the roof takes all of that");
+    }
+    // Some count a part's storeys from its own foot: what lies wholly below that is meant so.
+    void countFromFoot(std::optional<double> foot) {
+        constexpr double kDoubt = 0.5;  // storeys
+        const double base = foot.value_or(f_.baseHeight / kStorey - kDoubt);
+        if (!f_.levels || f_.height || *f_.levels >= base) return;
+        note("building:levels", "counts from the ground, and lies below the part's foot: counted from there instead");
+        f_.levels = *f_.levels + f_.baseHeight / kStorey;
+    }
+    // Of a roof on posts the least height is where the roof begins; posts go down to the ground.
+    void standOnPosts() {
+        const bool sloped = f_.shape != RoofShape::flat && !f_.roofHeight && !f_.slope;
+        if (sloped && f_.height && f_.baseHeight > 0) f_.roofHeight = *f_.height - f_.baseHeight;
+        f_.baseHeight = 0;
+    }
+    void flat() { f_.shape = RoofShape::flat, f_.shaped = true; }
+
     void shape() {
         std::optional<std::string> name = text("roof:shape");
         if (!name) return;
         for (const NamedShape& s : kShapes)
-            if (lower(*name) == s.name) {
+            if (lowered(*name) == s.name) {
                 f_.shape = s.shape;
-                if (!s.exact)
-                    diagnostics_.push_back({file_, 0, 0, f_.id,
-                                            "roof:shape " + shown(*name) + " is not made: the nearest shape instead",
-                                            true});
+                f_.shaped = true;
+                if (!s.exact) note("roof:shape", shown(*name) + " is not made: the nearest shape instead");
                 return;
             }
         warn("roof:shape", shown(*name) + " is unknown");
     }
     void direction() {
-        const json* value = find("roof:direction");
+        const json* value = tags_.find("roof:direction");
         if (!value) return;
-        std::optional<double> degrees = parse(*value);
-        if (!degrees && value->is_string())
-            for (int i = 0; i < 16; i++)
-                if (lower(*text("roof:direction")) == lower(kCompass[i])) degrees = 22.5 * i;
+        const std::optional<double> degrees = readDirection(*value);
         if (!degrees || !std::isfinite(*degrees))
             return warn("roof:direction", "is neither degrees nor a compass point");
         f_.direction = glm::radians(std::fmod(*degrees, 360));
@@ -186,24 +184,25 @@ class Tags {
     void orientation() {
         std::optional<std::string> name = text("roof:orientation");
         if (!name) return;
-        if (*name != "along" && *name != "across")
+        const std::string word = lowered(*name);
+        if (word != "along" && word != "across")
             return warn("roof:orientation", shown(*name) + " is neither along nor across");
-        f_.orientation = *name == "along" ? RidgeOrientation::along : RidgeOrientation::across;
+        f_.orientation = word == "along" ? RidgeOrientation::along : RidgeOrientation::across;
     }
     void material() {
         std::optional<std::string> name = text("roof:material");
         if (!name) return;
         for (auto [known, material] : kMaterials)
-            if (lower(*name) == known) {
+            if (lowered(*name) == known) {
                 f_.material = material;
                 return;
             }
         warn("roof:material", shown(*name) + " is unknown");
     }
     void colour() {
-        std::optional<std::string> name = text(find("roof:colour") ? "roof:colour" : "roof:color");
+        std::optional<std::string> name = text("roof:colour");
         if (!name) return;
-        std::string c = lower(*name);
+        std::string c = lowered(*name);
         std::optional<uint32_t> rgb;
         for (auto [known, value] : kColours)
             if (c == known) rgb = value;
@@ -218,7 +217,7 @@ class Tags {
     }
 
     void edges() {
-        const json* list = find("edges");
+        const json* list = tags_.find("edges");
         if (!list) return;
         size_t count = 0;
         for (const auto& ring : f_.rings) count += ring.size();
@@ -238,7 +237,7 @@ class Tags {
             EdgeRoof own{uint32_t(edge), {}, {}};
             if (entry.contains("gable") && entry["gable"].is_boolean()) own.gable = entry["gable"].get<bool>();
             if (entry.contains("angle")) {
-                std::optional<double> angle = parse(entry["angle"]);
+                std::optional<double> angle = readNumber(entry["angle"]);
                 if (angle && *angle > 0 && *angle <= 85)
                     own.slope = std::tan(glm::radians(*angle));
                 else
@@ -248,7 +247,7 @@ class Tags {
         }
     }
 
-    const json& tags_;
+    const FeatureTags& tags_;
     const std::string& file_;
     Footprint& f_;
     std::vector<Diagnostic>& diagnostics_;
@@ -256,19 +255,20 @@ class Tags {
 
 }  // namespace
 
-void applyTags(const json& tags, const std::string& file, Footprint& footprint, std::vector<Diagnostic>& diagnostics) {
-    if (tags.is_object()) Tags(tags, file, footprint, diagnostics).apply();
+void applyTags(const FeatureTags& tags, const std::string& file, Footprint& footprint,
+               std::vector<Diagnostic>& diagnostics) {
+    Tags(tags, file, footprint, diagnostics).apply();
 }
 
-void tellUnknownTags(const json& tags, const std::string& file, const std::string& id,
+void tellUnknownTags(const FeatureTags& tags, const std::string& file, const std::string& id,
                      std::vector<Diagnostic>& diagnostics) {
-    static constexpr std::array known{"roof:shape",     "roof:height",      "roof:angle",
-                                      "roof:direction", "roof:orientation", "roof:material",
-                                      "roof:colour",    "roof:color",       "roof:levels"};
-    if (!tags.is_object()) return;
-    for (const auto& [key, value] : tags.items())
+    static constexpr std::array known{"roof:shape",       "roof:height",         "roof:angle",  "roof:direction",
+                                      "roof:orientation", "roof:material",       "roof:colour", "roof:color",
+                                      "roof:levels",      "roof:slope:direction"};
+    tags.forKeys([&](const std::string& key) {
         if (key.rfind("roof:", 0) == 0 && std::find(known.begin(), known.end(), key) == known.end())
             diagnostics.push_back({file, 0, 0, id, key.substr(0, 40) + " is not known: ignored", true});
+    });
 }
 
 }  // namespace espalier

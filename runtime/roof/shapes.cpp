@@ -6,6 +6,7 @@
 
 #include "runtime/core/jobs.hpp"
 #include "runtime/roof/check.hpp"
+#include "runtime/roof/footprint_heights.hpp"
 #include "runtime/roof/shapes_plan.hpp"
 #include "runtime/roof/shapes_shed.hpp"
 
@@ -13,23 +14,20 @@ namespace espalier {
 
 namespace {
 
-constexpr double kStorey = 3;  // metres
-
 class HouseMaker {
   public:
     HouseMaker(const Footprint& footprint, const RepairedOutline& outline, std::vector<Diagnostic>& diagnostics)
         : footprint_(footprint),
           outline_(outline),
           edges_(outline.rings),
-          attempts_(edges_),
-          planner_(footprint, outline, edges_, attempts_, diagnostics),
+          neighbours_(footprint.shared, outline.origin, edges_),
+          planner_(footprint, outline, edges_, neighbours_, attempts_, diagnostics),
           diagnostics_(diagnostics) {}
 
     bool append(RoofStructure& out) {
         const size_t said = diagnostics_.size();
         if (!appendAny(out)) return false;
         RoofHouse& house = out.houses.back();
-        house.edges = ownEdges();
         for (size_t i = said; i < diagnostics_.size(); ++i)
             if (house.note.find(diagnostics_[i].message) == std::string::npos)
                 house.note += (house.note.empty() ? "" : "\n") + diagnostics_[i].message;
@@ -41,7 +39,10 @@ class HouseMaker {
     bool appendAny(RoofStructure& out) {
         RoofShape shape = footprint_.shape;
         nameUnused(shape);
-        if (make(shape, false, out)) return true;
+        planner_.nameUnusedRidge(shape);
+        do
+            if (make(shape, false, out)) return true;
+        while (planner_.giveUpWish());
         if (shape != RoofShape::hip && shape != RoofShape::flat) {
             planner_.say("its roof could not be made as asked: a hip roof instead");
             if (make(RoofShape::hip, false, out)) return true;
@@ -57,12 +58,12 @@ class HouseMaker {
         return false;
     }
 
-    // By their numbers in the outline that was mended.
-    std::vector<EdgeRoof> ownEdges() const {
+    // By their numbers in the outline that was mended and divided.
+    std::vector<EdgeRoof> ownEdges(const DividedOutline& divided) const {
         std::vector<EdgeRoof> own;
-        for (uint32_t e = 0; e < outline_.sourceEdges.size(); ++e)
+        for (uint32_t e = 0; e < divided.edges.size(); ++e)
             for (const EdgeRoof& given : footprint_.edges)
-                if (given.edge == outline_.sourceEdges[e]) own.push_back({e, given.gable, given.slope});
+                if (given.edge == outline_.sourceEdges[divided.edges[e]]) own.push_back({e, given.gable, given.slope});
         return own;
     }
 
@@ -85,23 +86,43 @@ class HouseMaker {
     }
 
     bool make(RoofShape shape, bool plain, RoofStructure& out) {
-        if (shape == RoofShape::shed) {
-            Facets facets = shedFacets(outline_.rings, lowEdge(), footprint_.direction, planner_.slopeOf(shape));
-            cutFacets(facets);
-            return finish(facets, shape, out);
+        if (shape == RoofShape::shed) return makeShed(out);
+        RoofPlan plan = planner_.planOf(shape, plain);
+        SkeletonInput& input = plan.input;
+        // Gables stay whole.
+        const DividedOutline divided =
+            neighbours_.divide(input.rings, [&](size_t e) { return !plan.level && input.speeds[e] == 0; });
+        input.rings = divided.rings;
+        for (std::vector<double>* speeds : {&input.speeds, &input.speedsAbove}) {
+            if (speeds->empty()) continue;
+            std::vector<double> whole = std::move(*speeds);
+            speeds->clear();
+            for (uint32_t e : divided.edges) speeds->push_back(whole[e]);
         }
-        return attempts_.attempt(planner_.planOf(shape, plain), [&](Facets& facets) {
+        return attempts_.attempt(plan, [&](Facets& facets) {
             cutFacets(facets);
-            return finish(facets, shape, out);
+            return finish(facets, shape, divided, out);
         });
     }
 
+    bool makeShed(RoofStructure& out) {
+        std::vector<bool> closed;
+        for (size_t e = 0; e < edges_.corner.size(); ++e) closed.push_back(neighbours_.closes(e));
+        const uint32_t eave = shedEave(outline_.rings, lowEdge(), planner_.fallOf(), closed);
+        const DividedOutline divided = neighbours_.divide(outline_.rings, [&](size_t e) { return e == eave; });
+        const auto at = std::find(divided.edges.begin(), divided.edges.end(), eave);
+        Facets facets =
+            shedFacets(divided.rings, uint32_t(at - divided.edges.begin()), planner_.slopeOf(RoofShape::shed));
+        cutFacets(facets);
+        return finish(facets, RoofShape::shed, divided, out);
+    }
+
     // Heights, then the check. What doesn't pass leaves no trace.
-    bool finish(Facets& facets, RoofShape shape, RoofStructure& out) {
+    bool finish(Facets& facets, RoofShape shape, const DividedOutline& divided, RoofStructure& out) {
         double ridge = 0;
         for (const Facets::Side& s : facets.sides)
             if (!s.dead) ridge = std::max(ridge, facets.points[s.from].z);
-        Heights h = heights(ridge);
+        const RoofHeights h = heightsOf(footprint_, ridge, planner_.slopeOf(shape));
         if (ridge > 0 && h.roof != ridge) {
             double scale = h.roof / ridge;
             for (glm::dvec3& p : facets.points) p.z *= scale;
@@ -113,14 +134,20 @@ class HouseMaker {
         RoofHouse house{};
         house.id = footprint_.id;
         house.origin = outline_.origin;
-        house.baseHeight = float(footprint_.baseHeight);
-        house.eaveHeight = float(h.eave);
+        house.baseHeight = float(footprint_.ground + footprint_.baseHeight);
+        house.eaveHeight = float(footprint_.ground + h.eave);
+        house.open = footprint_.open;
+        house.edges = ownEdges(divided);
         house.shape = shape;
         house.material = uint32_t(footprint_.material);
         house.colour = footprint_.colour;
         house.overhang = footprint_.overhang;
         house.chimneys = footprint_.chimneys;
-        for (const auto& ring : outline_.rings) house.rings.emplace_back(ring.begin(), ring.end());
+        for (const Beside& b : divided.beside) {
+            const double covered = std::max(b.top - footprint_.baseHeight, 0.0);
+            house.shared.push_back(b.endsRoof ? kEndsRoof : float(covered));
+        }
+        for (const auto& ring : divided.rings) house.rings.emplace_back(ring.begin(), ring.end());
         size_t faces = out.faces.size(), segments = out.segments.size();
         appendHouse(facets, std::move(house), out);
         if (checkRoof(out, uint32_t(out.houses.size() - 1)).empty()) return true;
@@ -130,35 +157,10 @@ class HouseMaker {
         return false;
     }
 
-    struct Heights {
-        double eave, roof;
-    };
-    // Eave and roof height out of what is given: the roof's own height counts most, then the whole height, then
-    // storeys.
-    Heights heights(double ridge) const {
-        const Footprint& f = footprint_;
-        double base = f.baseHeight, roof = ridge;
-        std::optional<double> eave;
-        if (f.levels) eave = base + kStorey * std::max(*f.levels, 0.0);
-        if (ridge > 0 && f.roofHeight)
-            roof = *f.roofHeight;
-        else if (ridge > 0 && !f.slope && f.height && eave && *f.height - *eave > 0.3)
-            roof = *f.height - *eave;
-        else if (ridge > 0 && !f.slope && f.roofLevels && *f.roofLevels > 0)
-            roof = kStorey * *f.roofLevels;
-        if (f.height) {
-            double whole = std::max(*f.height - base, 0.1);
-            roof = std::min(roof, whole * kMostRoof);
-            eave = base + whole - roof;
-        }
-        double most = ridge * kSteepestRoof;
-        return {eave.value_or(base + 2 * kStorey),
-                std::min(std::max(roof, ridge > 0 ? 0.01 : 0.0), std::max(most, 0.0))};
-    }
-
     const Footprint& footprint_;
     const RepairedOutline& outline_;
     const OutlineEdges edges_;
+    const OutlineNeighbours neighbours_;
     RoofAttempts attempts_;
     RoofPlanner planner_;
     std::vector<Diagnostic>& diagnostics_;

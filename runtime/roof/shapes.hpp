@@ -7,9 +7,6 @@
 
 namespace espalier {
 
-// Of the height that a footprint gives a house; walls keep the rest at least.
-inline constexpr double kMostRoof = 2.0 / 3;
-
 // Appends the footprint's house to the structure: more than one where its outline falls apart, none where it can't be
 // used. What is appended has passed checkRoof(); what has not is redone in higher precision, then as a hip, then left
 // out. Diagnostics name the footprint's id as rule. Any thread, one structure a thread.

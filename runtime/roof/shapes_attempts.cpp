@@ -76,8 +76,10 @@ bool OutlineEdges::continues(size_t e) const {
 bool RoofAttempts::attempt(const RoofPlan& plan, const std::function<bool(Facets&)>& use) {
     // Where many corners meet at once, doubles and rounding make a tangle: a way may cost no more than some times
     // what looking at each pair of edges does.
-    const uint64_t most = kLeastWayWork + 2 * uint64_t(edges_.corner.size()) * edges_.corner.size();
-    for (const Way& way : edges_.corner.size() > kMany ? std::span<const Way>(kWaysOfMany) : kWays) {
+    std::vector<glm::dvec2> corners;
+    for (const auto& ring : plan.input.rings) corners.insert(corners.end(), ring.begin(), ring.end());
+    const uint64_t most = kLeastWayWork + 2 * uint64_t(corners.size()) * corners.size();
+    for (const Way& way : corners.size() > kMany ? std::span<const Way>(kWaysOfMany) : kWays) {
         if (work_ == 0) break;
         uint64_t work = std::min(work_, most * (way.precision == Precision::high ? 8 : 1));
         work_ -= work;
@@ -87,10 +89,10 @@ bool RoofAttempts::attempt(const RoofPlan& plan, const std::function<bool(Facets
         const bool made = straightSkeleton(way.jitter > 0 ? moved : plan.input, way.precision, skeleton, work);
         work_ += work;
         if (!made) continue;
-        for (size_t i = 0; i < edges_.corner.size(); i++) skeleton.nodes[i] = glm::dvec3(edges_.corner[i], 0);
+        for (size_t i = 0; i < corners.size(); i++) skeleton.nodes[i] = glm::dvec3(corners[i], 0);
         Facets facets;
         if (!facetsOf(skeleton, faceSlopes(plan, skeleton), facets)) continue;
-        cleanFacets(facets, kJoin, uint32_t(edges_.corner.size()));
+        cleanFacets(facets, kJoin, uint32_t(corners.size()));
         if (plan.level)
             for (glm::dvec3& p : facets.points) p.z = 0;
         if (use(facets)) return true;

@@ -36,15 +36,12 @@ struct RoofPlan {
 // All attempts at one house share its work limit, so that no outline takes more than about two seconds. One thread.
 class RoofAttempts {
   public:
-    explicit RoofAttempts(const OutlineEdges& edges) : edges_(edges) {}
-
     // Tries one way after another until `use` is content with the plan's facets. Whether it was with any.
     bool attempt(const RoofPlan& plan, const std::function<bool(Facets&)>& use);
 
     bool exhausted() const { return work_ == 0; }
 
   private:
-    const OutlineEdges& edges_;
     uint64_t work_ = 150'000'000;  // that is left, see straightSkeleton
 };
 

@@ -5,22 +5,59 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/roof/footprint_heights.hpp"
+#include "runtime/roof/shapes_gables.hpp"
+
 namespace espalier {
 
 namespace {
 
-constexpr double kMansardTop = 0.364;                                             // tangent of 20 degrees
-constexpr double kGambrelTop = 0.577;                                             // of 30
-constexpr double kDefaultSlope[] = {0.7, 0.7, 0.7, 1.0, 0.268, 1.732, 2.747, 0};  // by RoofShape
+constexpr double kMansardTop = 0.364;  // tangent of 20 degrees
+constexpr double kGambrelTop = 0.577;  // of 30
+
+// Whether the shape has gables at the ends of its ridge.
+bool hasGables(RoofShape shape) {
+    return shape == RoofShape::gable || shape == RoofShape::halfHip || shape == RoofShape::gambrel;
+}
 
 }  // namespace
+
+RoofPlanner::RoofPlanner(const Footprint& footprint, const RepairedOutline& outline, const OutlineEdges& edges,
+                         const OutlineNeighbours& neighbours, RoofAttempts& attempts,
+                         std::vector<Diagnostic>& diagnostics)
+    : footprint_(footprint),
+      outline_(outline),
+      edges_(edges),
+      attempts_(attempts),
+      diagnostics_(diagnostics),
+      ridge_(askedRidge(footprint, edges)) {
+    for (size_t e = 0; e < edges.corner.size(); e++) closed_.push_back(neighbours.closes(e));
+}
+
+bool RoofPlanner::giveUpWish() {
+    if (ridge_) {
+        say("its ridge could not be laid as roof:direction or roof:orientation asks");
+        ridge_.reset();
+        return true;
+    }
+    if (std::find(closed_.begin(), closed_.end(), true) == closed_.end()) return false;
+    say("its roof could not be ended at its neighbours' walls");
+    closed_.assign(closed_.size(), false);
+    return true;
+}
 
 void RoofPlanner::say(const std::string& what) {
     diagnostics_.push_back({{}, 0, 0, footprint_.id, what, true});
 }
 
 double RoofPlanner::slopeOf(RoofShape shape) const {
-    return std::clamp(footprint_.slope.value_or(kDefaultSlope[size_t(shape)]), 0.01, kSteepestRoof);
+    return std::clamp(footprint_.slope.value_or(usualSlope(shape)), 0.01, kSteepestRoof);
+}
+
+std::optional<double> RoofPlanner::fallOf() const {
+    if (footprint_.direction || footprint_.orientation != RidgeOrientation::across) return footprint_.direction;
+    const glm::dvec2 length = lengthOf(edges_);
+    return std::atan2(length.x, length.y);
 }
 
 RoofPlan RoofPlanner::planOf(RoofShape shape, bool plain) {
@@ -37,7 +74,7 @@ RoofPlan RoofPlanner::planOf(RoofShape shape, bool plain) {
     }
     if (shape == RoofShape::pyramid && !pyramid(slope, speeds))
         say("its middle lies too near some eaves for a pyramid: a hip roof instead");
-    if (shape == RoofShape::gable || shape == RoofShape::halfHip || shape == RoofShape::gambrel) chooseGables(speeds);
+    if (shape != RoofShape::pyramid) chooseGables(shape, speeds);
     ownSlopes(speeds);
     breakSlopes(shape, slope, plan);
     return plan;
@@ -51,8 +88,8 @@ void RoofPlanner::breakSlopes(RoofShape shape, double slope, RoofPlan& plan) {
         // The hip begins half way up the gable.
         double ridge = ridgeOf(plan);
         plan.input.breakHeight = ridge > 0 ? ridge / 2 : INFINITY;
-        for (double& s : above)
-            if (s == 0) s = 1 / slope;
+        for (size_t e = 0; e < above.size(); e++)
+            if (above[e] == 0 && !closed_[e]) above[e] = 1 / slope;
     }
     if (shape == RoofShape::gambrel || shape == RoofShape::mansard) {
         bool mansard = shape == RoofShape::mansard;
@@ -99,46 +136,28 @@ bool RoofPlanner::pyramid(double slope, std::vector<double>& speeds) const {
     return true;
 }
 
-// Both corners are convex and not blunt, as those of an octagon or a bay are.
-bool RoofPlanner::endsWing(size_t e) const {
-    auto sharp = [&](size_t corner) {
-        return edges_.turn(corner) > 0 && glm::dot(edges_.along(edges_.previous[corner]), edges_.along(corner)) < 0.45;
-    };
-    return sharp(e) && sharp(edges_.next[e]);
+void RoofPlanner::chooseGables(RoofShape shape, std::vector<double>& speeds) {
+    RoofGables gables(outline_, edges_, attempts_);
+    if (!ridge_ || !hasGables(shape) || !gables.lay(*ridge_)) {
+        gables.endAt(closed_);
+        if (hasGables(shape) && !gables.endWings()) say("no edge of it can carry a gable: a hip roof instead");
+    }
+    for (size_t e = 0; e < speeds.size(); e++)
+        if (gables.has(e)) speeds[e] = 0;
 }
 
-// A gable stands where a hip roof would be a triangle between two convex corners: at the end of a wing. Of two such
-// neighbours the shorter takes it, in a quadrangle with its ridge across the longer.
-void RoofPlanner::chooseGables(std::vector<double>& speeds) {
-    RoofPlan hips;
-    hips.input.rings = outline_.rings;
-    hips.input.speeds.assign(speeds.size(), 1);
-    std::vector<size_t> ends;
-    bool across = footprint_.orientation == RidgeOrientation::across && speeds.size() == 4;
-    auto triangles = [&](Facets& facets) {
-        ends.clear();
-        for (const Facets::Facet& f : facets.facets) {
-            if (f.side == kNone) continue;
-            uint32_t third = facets.sides[facets.sides[f.side].next].next;
-            bool triangle = facets.sides[third].next == f.side;
-            if (triangle && endsWing(f.edge)) ends.push_back(f.edge);
-        }
-        return true;
-    };
-    if (across)
-        ends = {0, 1, 2, 3};
-    else
-        attempts_.attempt(hips, triangles);
-    std::stable_sort(ends.begin(), ends.end(), [&](size_t a, size_t b) {
-        double difference = edges_.length(a) - edges_.length(b);
-        return across ? difference > 0.01 : difference < -0.01;
-    });
-    std::vector<bool> gable(speeds.size());
-    for (size_t e : ends)
-        if (!gable[edges_.next[e]] && !gable[edges_.previous[e]]) gable[e] = true;
-    if (ends.empty()) say("no edge of it can carry a gable: a hip roof instead");
-    for (size_t e = 0; e < speeds.size(); e++)
-        if (gable[e]) speeds[e] = 0;
+void RoofPlanner::nameUnusedRidge(RoofShape shape) {
+    if (hasGables(shape)) {
+        if (ridge_ && footprint_.direction && liesBetweenWalls(*ridge_, edges_))
+            say("roof:direction lies between the directions of its walls: the nearest is taken");
+        return;
+    }
+    const bool length = shape == RoofShape::hip || shape == RoofShape::mansard;
+    if (length && (!ridge_ || liesAlong(*ridge_, edges_))) return;
+    const char* key = footprint_.direction ? "roof:direction" : footprint_.orientation ? "roof:orientation" : nullptr;
+    if (!key || shape == RoofShape::shed) return;
+    say(std::string(key) + (length ? " would turn the ridge of a hip roof, which lies along its length: ignored"
+                                   : " means nothing for this shape of roof: ignored"));
 }
 
 // What edges have of their own; neighbours in one line then share the first one's.

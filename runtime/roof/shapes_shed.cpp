@@ -18,31 +18,41 @@ glm::dvec2 inward(const std::vector<glm::dvec2>& ring, size_t i) {
 
 }  // namespace
 
-Facets shedFacets(const std::vector<std::vector<glm::dvec2>>& rings, std::optional<uint32_t> lowEdge,
-                  std::optional<double> direction, double slope) {
-    constexpr double kLow = 2e-5;  // metres above the eave that need no wall
+uint32_t shedEave(const std::vector<std::vector<glm::dvec2>>& rings, std::optional<uint32_t> lowEdge,
+                  std::optional<double> direction, const std::vector<bool>& kept) {
     glm::dvec2 fall(0), uphill(0);
     if (direction) fall = {std::sin(*direction), std::cos(*direction)};
-    double best = -INFINITY, lowest = INFINITY, least = 0;
-    uint32_t edge = 0, eaveEdge = 0;
+    double best = -INFINITY, least = 0;
+    uint32_t edge = 0, eave = 0;
     for (const auto& ring : rings)
         for (size_t i = 0; i < ring.size(); i++, edge++) {
-            glm::dvec2 in = inward(ring, i);
-            double length = glm::distance(ring[(i + 1) % ring.size()], ring[i]);
+            const glm::dvec2 in = inward(ring, i);
+            const double length = glm::distance(ring[(i + 1) % ring.size()], ring[i]);
             double fit = direction ? -glm::dot(in, fall) + 1e-3 * length / (1 + length) : length;
+            if (!direction && kept[edge]) fit -= 1e6;
             if (edge == lowEdge) fit = INFINITY;
-            if (fit > best) best = fit, eaveEdge = edge, uphill = in, least = glm::dot(ring[i], in);
+            if (fit > best) best = fit, eave = edge, uphill = in, least = glm::dot(ring[i], in);
         }
-    for (const auto& ring : rings)
-        for (glm::dvec2 p : ring) lowest = std::min(lowest, glm::dot(p, uphill));
-    // Of edges that face alike the outermost is the eave: a notch's or a courtyard's is higher up.
+    // A notch's or a courtyard's edge is higher up.
     edge = 0;
     for (const auto& ring : rings)
         for (size_t i = 0; i < ring.size(); i++, edge++) {
             const double height = glm::dot(ring[i], uphill);
-            if (glm::dot(inward(ring, i), uphill) > 1 - kAlike && height < least - kLower)
-                least = height, eaveEdge = edge;
+            if (glm::dot(inward(ring, i), uphill) > 1 - kAlike && height < least - kLower) least = height, eave = edge;
         }
+    return eave;
+}
+
+Facets shedFacets(const std::vector<std::vector<glm::dvec2>>& rings, uint32_t eaveEdge, double slope) {
+    constexpr double kLow = 2e-5;  // metres above the eave that need no wall
+    glm::dvec2 uphill(0);
+    uint32_t edge = 0;
+    for (const auto& ring : rings)
+        for (size_t i = 0; i < ring.size(); i++, edge++)
+            if (edge == eaveEdge) uphill = inward(ring, i);
+    double lowest = INFINITY;
+    for (const auto& ring : rings)
+        for (glm::dvec2 p : ring) lowest = std::min(lowest, glm::dot(p, uphill));
 
     Facets f;
     f.facets.push_back({eaveEdge, 0, FaceKind::slope, slope, {}, {uphill.y, -uphill.x}, uphill, 0});

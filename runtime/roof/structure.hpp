@@ -69,6 +69,9 @@ struct EdgeRoof {
     std::optional<double> slope;  // tangent of the pitch, > 0
 };
 
+// RoofHouse::shared where a neighbour stands higher than the eave.
+constexpr float kEndsRoof = 1e9f;
+
 struct RoofHouse {
     std::string id;                             // the feature's
     glm::dvec2 origin;                          // plan, metres east and north of the town's origin
@@ -76,6 +79,9 @@ struct RoofHouse {
     RoofShape shape;
     std::vector<std::vector<glm::vec2>> rings;  // repaired footprint: outer ring, holes
     std::vector<EdgeRoof> edges;                // of these rings, as was asked for
+    std::vector<float> shared;                  // an edge each: metres from the walls' foot that a neighbour covers, or
+                                                // kEndsRoof; empty: none
+    bool open;                                  // on posts, without walls
     std::string note;                           // what couldn't be made as asked, a line each
     uint32_t firstFace, faceCount;
     uint32_t material;  // RoofMaterial of footprint.hpp

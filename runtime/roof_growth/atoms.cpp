@@ -55,9 +55,6 @@ class HouseAtoms {
     }
 
   private:
-    // Where the house stands.
-    glm::vec3 placed(glm::vec3 p) const { return {float(h_.origin.x + p.x), p.y, float(p.z - h_.origin.y)}; }
-
     static glm::vec3 normalOf(const RoofFace& face) {
         const glm::vec3 along = unitOr(face.eave[1] - face.eave[0], {1, 0, 0});
         const glm::vec3 inward = glm::cross(glm::vec3(0, 1, 0), along);
@@ -84,17 +81,26 @@ class HouseAtoms {
         atom.house = number_;
         atom.tier = tier;
         atom.style = uint32_t(h_.shape) | (h_.material & 255u) << 8 | ((h_.colour >> 24) != 0 ? 1u << 16 : 0u) |
-                     h_.chimneys << kAtomChimneys;
+                     h_.chimneys << kAtomChimneys | (h_.open ? kAtomOpen : 0u) | sharedOf(edge) << kAtomShared;
         atom.overhang = h_.overhang;
         for (int c = 0; c < 3; ++c) atom.colour[c] = linearOfSrgb(float(h_.colour >> (8 * c) & 255) / 255);
         atom.firstPiece = uint32_t(t_.pieces.size());
         if (tier == 0) atom.corners = cornersOf(edge);
         return atom;
     }
+    bool closed(uint32_t edge) const { return edge < h_.shared.size() && h_.shared[edge] == kEndsRoof; }
+    // For RoofAtom::style: rounded up, but below the eave.
+    uint32_t sharedOf(uint32_t edge) const {
+        if (closed(edge)) return kAtomClosed;
+        const float most = std::min(h_.eaveHeight - h_.baseHeight - 0.25f, 0.25f * (kAtomClosed - 1));
+        const float shared = edge < h_.shared.size() ? std::min(h_.shared[edge], most) : 0;
+        return uint32_t(std::max(std::ceil(4 * shared), 0.0f));
+    }
     // Overhanging eaves of two edges meet on the line that halves their corner: tan of half the turn.
     glm::vec2 cornersOf(uint32_t edge) const {
-        // Beside a wall that goes up to the roof there is no eave to meet.
+        // Beside a wall that goes up to the roof there is no eave to meet. At a neighbour's eaves end with the wall.
         auto walled = [&](uint32_t e) { return groups_.count({0, e, uint32_t(FaceKind::gable)}) != 0; };
+        constexpr float kNone = 1e-6f;
         uint32_t first = 0;
         for (const auto& ring : h_.rings) {
             const uint32_t n = uint32_t(ring.size());
@@ -108,16 +114,18 @@ class HouseAtoms {
                 const double turn = std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b));
                 return float(glm::clamp(std::tan(turn / 2), -2.0, 2.0));
             };
+            auto beside = [&](uint32_t e, float meeting) {
+                return closed(first + e) ? kNone : walled(first + e) ? 0 : meeting == 0 ? kNone : meeting;
+            };
             const uint32_t before = (edge + n - 1) % n, behind = (edge + 1) % n;
-            return {walled(first + before) ? 0 : half(side(before), side(edge)),
-                    walled(first + behind) ? 0 : half(side(edge), side(behind))};
+            return {beside(before, half(side(before), side(edge))), beside(behind, half(side(edge), side(behind)))};
         }
         return {0, 0};
     }
     void setEave(RoofAtom& atom, glm::vec3 from, glm::vec3 along, float length) const {
         atom.tangent = along;
         atom.eaveLength = length;
-        atom.foot = placed(from);
+        atom.foot = from;
         atom.foot.y = std::min(h_.baseHeight, from.y);
         atom.wallHeight = from.y - atom.foot.y;
     }
@@ -143,7 +151,7 @@ class HouseAtoms {
         setEave(atom, frame.origin, frame.a, end - begin);
         atom.region = uint32_t(t_.regions.size());
         RoofRegion region{};
-        region.origin = placed(frame.origin);
+        region.origin = frame.origin;
         region.axisA = frame.a;
         region.axisB = frame.b;
         region.axisC = frame.c;
@@ -181,8 +189,8 @@ class HouseAtoms {
         for (uint32_t i = 0; i < face.segmentCount; ++i) {
             const ChainSegment& segment = s_.segments[face.firstSegment + i];
             vec4 plane = planeOf(face, frame, from, segment.to, &segment);
-            // Roofs reach over the walls of their gables.
-            if (segment.kind == JointKind::verge && face.kind == FaceKind::slope) {
+            // Roofs reach over the walls of their gables, but not over a neighbour.
+            if (reachesOver(segment) && face.kind == FaceKind::slope) {
                 plane.w += options_.verge;
                 verge = true;
             }
@@ -194,6 +202,10 @@ class HouseAtoms {
             region.high.x += options_.verge;
         }
         cutIntoParts(edges, t_.parts, t_.planes);
+    }
+
+    bool reachesOver(const ChainSegment& segment) const {
+        return segment.kind == JointKind::verge && !(segment.face != kNoFace && closed(s_.faces[segment.face].edge));
     }
 
     // The half-space inside an edge of the outline; leaning between the two faces where another one meets it.
@@ -230,7 +242,8 @@ class HouseAtoms {
                 piece.normal = frame.turned(normal);
                 const float lean = glm::clamp(glm::dot(normal, normalOf(face)), 0.05f, 1.0f);
                 piece.fold = std::sqrt(1 - lean * lean) / lean;
-                piece.kind = uint32_t(segment.kind) + 1;
+                const bool atNeighbour = segment.kind == JointKind::verge && !reachesOver(segment);
+                piece.kind = uint32_t(atNeighbour ? JointKind::wall : segment.kind) + 1;
                 piece.upper = kNoIndex;
                 piece.owner = segment.face == kNoFace || f < segment.face ? 1 : 0;
                 beyond_.push_back({uint32_t(t_.pieces.size()), f, segment.face});
@@ -312,15 +325,26 @@ class HouseAtoms {
 
 }  // namespace
 
+namespace {
+
+RoofPlot plotOf(const RoofHouse& house) {
+    return {{float(house.origin.x), float(-house.origin.y)}, 0, 0};
+}
+
+}  // namespace
+
 RoofTables makeAtoms(const RoofStructure& structure, const AtomOptions& options) {
     RoofTables tables;
-    for (uint32_t i = 0; i < structure.houses.size(); ++i)
+    for (uint32_t i = 0; i < structure.houses.size(); ++i) {
         tables.houses.push_back(HouseAtoms(tables, structure, i, i, options).run());
+        tables.plots.push_back(plotOf(structure.houses[i]));
+    }
     return tables;
 }
 
 void replaceAtoms(RoofTables& tables, uint32_t index, const RoofStructure& structure, const AtomOptions& options) {
     tables.houses[index] = HouseAtoms(tables, structure, 0, index, options).run();
+    tables.plots[index] = plotOf(structure.houses[0]);
 }
 
 void appendStarts(const RoofTables& tables, uint32_t house, std::vector<uint32_t>& atoms) {

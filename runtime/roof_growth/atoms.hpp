@@ -24,6 +24,7 @@ struct RoofTables {
         uint32_t firstAtom = 0, atomCount = 0;
     };
     std::vector<House> houses;
+    std::vector<RoofPlot> plots;  // [house]; generations count for nothing here
 };
 
 // The structure must pass checkRoof(). Atoms of a house follow each other; those of tier 0 stand before upper ones.

@@ -74,7 +74,6 @@ struct CpuRun {
     std::vector<RoofScope> scopes[2];
     std::vector<uint32_t> starts;  // atoms of the first wave
     std::vector<RoofWave> waves;
-    std::vector<uint32_t> generations;
     std::vector<float> means;
     RoofLayer layers[kRoofLayers] = {};
     CpuRoofs out;
@@ -91,7 +90,7 @@ struct CpuRun {
         out.records.runs.resize(room.rows);
         scopes[0].resize(room.scopes);
         scopes[1].resize(room.scopes);
-        generations.assign(t.houses.size(), 0);
+        out.records.plots = t.plots;
         waves.assign(kMaxRoofDepth + 2, RoofWave{0, {0, 1, 1}});
         out.status = {};
         out.status.regions = uint32_t(t.regions.size());
@@ -109,7 +108,7 @@ struct CpuRun {
         env.meshes.v = const_cast<RoofMesh*>(in.meshes.data());
         env.status.v = &out.status;
         env.waves.v = waves.data();
-        env.generations.v = generations.data();
+        env.plots.v = out.records.plots.data();
         for (uint32_t i = 0; i < kRoofLayers; ++i)
             layers[i] = {{const_cast<float*>(in.layers[i].texels)}, in.fill(i), 0};
         means = in.filledMeans(t.houses.size());

@@ -11,8 +11,7 @@ namespace espalier {
 namespace {
 
 // Records numbered as those behind `last`, and only what was made.
-void renumber(RoofRecords& made, const HouseTables& few, const RoofStatus& last,
-              std::span<const uint32_t> generationOf) {
+void renumber(RoofRecords& made, const HouseTables& few, const RoofStatus& last, std::span<const RoofPlot> plots) {
     const uint32_t ownRegions = uint32_t(few.tables.regions.size()), ownParts = uint32_t(few.tables.parts.size()),
                    ownPlanes = uint32_t(few.tables.planes.size());
     made.regions.erase(made.regions.begin(), made.regions.begin() + ownRegions);
@@ -22,7 +21,7 @@ void renumber(RoofRecords& made, const HouseTables& few, const RoofStatus& last,
     for (RoofPart& p : made.parts) p.firstPlane += last.planes - ownPlanes;
     for (RoofGrid& g : made.grids) {
         const uint32_t house = few.houses[g.house & 0xFFFFFFu];
-        g.house = house | generationOf[house] << 24;
+        g.house = house | plots[house].generation << 24;
         g.atom = few.atoms[g.atom];
         if (g.region != kNoIndex)
             g.region = g.region < ownRegions ? few.regions[g.region] : g.region + last.regions - ownRegions;
@@ -44,7 +43,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::growFew(const RoofInputs& inputs, std::span<
     ours.means = means;
     CpuRoofs made = growRoofsOnCpu(ours);
     if (!made.complete) return made.complete.failure();
-    renumber(made.records, few, last_, generationOf_);
+    renumber(made.records, few, last_, plots_);
     for (size_t i = 0; i < houses.size(); ++i) reads_[houses[i]] = made.reads[i];
 
     Outcome outcome;
@@ -68,7 +67,6 @@ Result<GpuRoofs::Outcome> GpuRoofs::growFew(const RoofInputs& inputs, std::span<
     Result<Commands> commands = Commands::begin(device_, "few roofs");
     if (!commands) return commands.failure();
     commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
-    const auto generations = std::as_bytes(std::span(generationOf_));
     if (Status sent =
             allDone({uploadTables(*commands, *inputs.town, set), uploadLayers(*commands, inputs, set),
                      commands->upload(set.grids, made.records.grids, last_.grids * sizeof(RoofGrid)),
@@ -79,8 +77,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::growFew(const RoofInputs& inputs, std::span<
         !sent)
         return sent.failure();
     for (uint32_t house : houses)
-        if (Status sent = commands->upload(set.generations, generations.subspan(house * 4, 4), house * 4); !sent)
-            return sent.failure();
+        if (Status sent = uploadPlot(*commands, set, house); !sent) return sent.failure();
     if (Result<uint64_t> sent = commands->submit(); !sent) return sent.failure();
     outcome.grids = std::move(made.records.grids);
     outcome.runs = std::move(made.records.runs);

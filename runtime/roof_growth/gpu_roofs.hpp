@@ -37,10 +37,10 @@ class GpuRoofs final : public RoofGrowth {
         Buffer buffer;
         uint32_t held = 0;
     };
-    // Regions, parts and planes that Join makes stand behind the town's. generations: [house], RoofView's. layers:
+    // Regions, parts and planes that Join makes stand behind the town's. plots: [house], RoofView's. layers:
     // RoofLayer, as the grammar counts them that the set is grown by.
     struct Set {
-        Buffer grids, runs, generations, layers;
+        Buffer grids, runs, plots, layers;
         Table regions, parts, planes;
     };
     // Of the town, whichever grammar reads it.
@@ -112,6 +112,7 @@ class GpuRoofs final : public RoofGrowth {
     void forgetLayersBut(std::span<const ContextInfo> read);
     Status uploadLayers(Commands& commands, const RoofInputs& inputs, Set& set);
     Status uploadHouses(Commands& commands, const RoofInputs& inputs, const Set& set, std::span<const uint32_t> houses);
+    Status uploadPlot(Commands& commands, const Set& set, uint32_t house);
     RoofEnv environment(const RoofInputs& inputs, const Set& set) const;
 
     Status growAll(const RoofInputs& inputs);
@@ -124,7 +125,7 @@ class GpuRoofs final : public RoofGrowth {
     // On the CPU, sent behind what the published set holds. Not complete: there is no room for it.
     Result<Outcome> growFew(const RoofInputs& inputs, std::span<const uint32_t> houses);
     // These haven't grown.
-    void takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<uint32_t>& generations) noexcept;
+    void takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<RoofPlot>& plots) noexcept;
     void record(Commands& commands, const Texels& texels, uint32_t waves);
     Outcome readBack();
     // Whether what a status tells has found room.
@@ -133,7 +134,7 @@ class GpuRoofs final : public RoofGrowth {
     void publish(const RoofInputs& inputs, const Outcome& outcome, std::span<const uint32_t> houses);
     void measure(const RoofTables& t, uint32_t house);
     uint64_t reserved() const;
-    static Sums sumsOf(const RoofGrid& grid, std::span<const RoofRun> runs);
+    Sums sumsOf(const RoofGrid& grid, std::span<const RoofRun> runs) const;
     // Of all houses, while all that is published is drawn.
     Status countHouses();
     // These have grown anew: their grids, and the runs from `last_` on.
@@ -156,7 +157,8 @@ class GpuRoofs final : public RoofGrowth {
     std::vector<uint32_t> townStarts_;       // atoms of all houses' first shapes
     bool startsSent_ = false;                // `starts_` holds these
     uint32_t startCount_ = 0;                // of the expansion that is being recorded
-    std::vector<uint32_t> generationOf_, reads_;
+    std::vector<RoofPlot> plots_;            // [house]
+    std::vector<uint32_t> reads_;            // likewise
     bool stands_ = false;          // what is published goes with the members above: no growth has failed since
     std::vector<Box> boxes_;       // [house]
     std::vector<Sums> houseSums_;  // [house], of what is drawn; empty: not counted since all have grown

@@ -6,8 +6,8 @@
 
 namespace espalier {
 
-GpuRoofs::Sums GpuRoofs::sumsOf(const RoofGrid& grid, std::span<const RoofRun> runs) {
-    const u64 hash = hashOfGrid(grid);
+GpuRoofs::Sums GpuRoofs::sumsOf(const RoofGrid& grid, std::span<const RoofRun> runs) const {
+    const u64 hash = hashOfGrid(grid, plots_[grid.house & 0xFFFFFFu].at);
     Sums sums{0, 0, 0, {uint32_t(hash), uint32_t(hash >> 32)}};
     if (grid.firstRow == kNoIndex) return sums.touched = sums.whole = sums.terminals = 1, sums;
     for (const RoofRun& run : runs.subspan(grid.firstRow, grid.cells >> 16)) {
@@ -24,7 +24,7 @@ Status GpuRoofs::countHouses() {
     if (!grids) return grids.failure();
     auto runs = readVector<RoofRun>(device_, set.runs, 0, last_.rows);
     if (!runs) return runs.failure();
-    houseSums_.resize(generationOf_.size());
+    houseSums_.resize(plots_.size());
     for (const RoofGrid& grid : *grids) houseSums_[grid.house & 0xFFFFFFu] += sumsOf(grid, *runs);
     return Done{};
 }

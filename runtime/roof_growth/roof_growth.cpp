@@ -66,7 +66,7 @@ RoofEnv GpuRoofs::environment(const RoofInputs& inputs, const Set& set) const {
     env.meshes = addressOf<RoofMeshBuf>(meshes_);
     env.status = addressOf<RoofStatusBuf>(status_);
     env.waves = addressOf<RoofWaveBuf>(waves_);
-    env.generations = addressOf<UintBuf>(set.generations);
+    env.plots = addressOf<RoofPlotBuf>(set.plots);
     env.layers = addressOf<RoofLayerBuf>(set.layers);
     env.means = addressOf<FloatBuf>(means_);
     env.reads = addressOf<UintBuf>(houseReads_);
@@ -96,7 +96,7 @@ void GpuRoofs::record(Commands& commands, const Texels& texels, uint32_t waves) 
     }
     commands.copy(status_, readback_, sizeof(RoofStatus));
     commands.copy(waves_, readback_, kRoofWaves * sizeof(RoofWave), 0, sizeof(RoofStatus));
-    if (!generationOf_.empty()) commands.copy(houseReads_, readback_, generationOf_.size() * 4, 0, kReadsAt);
+    if (!plots_.empty()) commands.copy(houseReads_, readback_, plots_.size() * 4, 0, kReadsAt);
     commands.barrier(Use::transfer, Use::host);
 }
 
@@ -106,7 +106,7 @@ GpuRoofs::Outcome GpuRoofs::readBack() {
     std::memcpy(&outcome.status, readback_.mapped(), sizeof(RoofStatus));
     std::array<RoofWave, kRoofWaves> waves;
     std::memcpy(static_cast<void*>(waves.data()), readback_.mapped() + sizeof(RoofStatus), sizeof(waves));
-    reads_.resize(generationOf_.size());
+    reads_.resize(plots_.size());
     std::memcpy(reads_.data(), readback_.mapped() + kReadsAt, reads_.size() * 4);
     for (const RoofWave& w : waves) {
         outcome.waves += w.count > 0 ? 1 : 0;
@@ -164,11 +164,12 @@ Result<GpuRoofs::Outcome> GpuRoofs::expandWhole(const RoofInputs& inputs, Set& s
 void GpuRoofs::measure(const RoofTables& t, uint32_t house) {
     Box box;
     const RoofTables::House& range = t.houses[house];
+    const glm::vec3 plot(t.plots[house].at.x, 0, t.plots[house].at.y);
     for (uint32_t i = range.firstAtom; i < range.firstAtom + range.atomCount; ++i) {
         const RoofAtom& atom = t.atoms[i];
         for (float along : {0.0f, atom.eaveLength})
             for (float up : {0.0f, atom.wallHeight + atom.height}) {
-                const glm::vec3 p = atom.foot + atom.tangent * along + glm::vec3(0, up, 0);
+                const glm::vec3 p = plot + atom.foot + atom.tangent * along + glm::vec3(0, up, 0);
                 box.low = glm::min(box.low, p);
                 box.high = glm::max(box.high, p);
             }
@@ -185,7 +186,7 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
     view_.parts = addressOf<RoofPartBuf>(set.parts.buffer);
     view_.planes = addressOf<Vec4Buf>(set.planes.buffer);
     view_.meshes = addressOf<RoofMeshBuf>(meshes_);
-    view_.generations = addressOf<UintBuf>(set.generations);
+    view_.plots = addressOf<RoofPlotBuf>(set.plots);
     view_.layers = addressOf<RoofLayerBuf>(set.layers);
     view_.site = inputs.site;
     view_.gridCount = last_.grids;
@@ -227,8 +228,8 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
 uint64_t GpuRoofs::reserved() const {
     uint64_t bytes = 0;
     for (const Set& s : sets_)
-        bytes += s.grids.size() + s.runs.size() + s.generations.size() + s.regions.buffer.size() +
-                 s.parts.buffer.size() + s.planes.buffer.size();
+        bytes += s.grids.size() + s.runs.size() + s.plots.size() + s.regions.buffer.size() + s.parts.buffer.size() +
+                 s.planes.buffer.size();
     for (const Buffer* b : {&atoms_.buffer, &pieces_.buffer, &scopes_[0], &scopes_[1]}) bytes += b->size();
     return bytes;
 }
@@ -258,12 +259,12 @@ bool GpuRoofs::fits(const RoofStatus& s, const Set& set) {
 // What has failed leaves the room that it asked for to nobody: later growth may need far less. What was noted as sent
 // while it was recorded may not have been.
 Status GpuRoofs::grow(const RoofInputs& inputs) {
-    Undo undo([this, room = room_, generations = generationOf_]() mutable {
+    Undo undo([this, room = room_, plots = plots_]() mutable {
         stands_ = false;
         forgetTables();
         grammarRevision_ = 0;
         room_ = room;
-        generationOf_ = std::move(generations);
+        plots_ = std::move(plots);
     });
     Status grown = growAll(inputs);
     if (!grown) return grown;
@@ -275,7 +276,7 @@ Status GpuRoofs::grow(const RoofInputs& inputs) {
 Status GpuRoofs::growAll(const RoofInputs& inputs) {
     const RoofTables& t = *inputs.town;
     noticeTown(inputs);
-    generationOf_.assign(t.houses.size(), 0);
+    plots_ = t.plots;
     own_ = Counts::of(t).withSlack();
     for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
         RoofStatus status{};
@@ -305,19 +306,22 @@ Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> 
     const RoofTables& t = *inputs.town;
     if (houses.empty()) return Done{};
     // A generation has eight bits, and what has gone is swept out by growing all anew when room runs out.
-    bool possible = stands_ && generationOf_.size() == t.houses.size() && own_.holds(Counts::of(t)) &&
+    bool possible = stands_ && plots_.size() == t.houses.size() && own_.holds(Counts::of(t)) &&
                     town_ == inputs.townRevision && grammarRevision_ == inputs.grammarRevision &&
                     houses.size() * 2 < t.houses.size() + 2;
     for (uint32_t house : houses) {
         require(house < t.houses.size(), "a house of the town");
-        possible = possible && house < generationOf_.size() && generationOf_[house] < 255;
+        possible = possible && house < plots_.size() && plots_[house].generation < 255;
     }
     if (!possible) return grow(inputs);
     if (Status counted = countHouses(); !counted) return counted;
-    std::vector<uint32_t> before = generationOf_;
+    std::vector<RoofPlot> before = plots_;
     Set& set = sets_[front_];
     Undo undo([&] { takeBack(set, houses, before); });
-    for (uint32_t house : houses) generationOf_[house] += 1;
+    for (uint32_t house : houses) {
+        plots_[house].at = t.plots[house].at;
+        plots_[house].generation += 1;
+    }
     const bool few = houses.size() <= kFewHouses;
     Result<Outcome> outcome = few ? growFew(inputs, houses) : expandWhole(inputs, set, houses, last_);
     const bool held = outcome && outcome->complete && fits(outcome->status, set) && outcome->widest <= room_.scopes;
@@ -334,16 +338,15 @@ Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> 
 }
 
 // Nothing has grown: what is drawn of these houses stays, though the GPU may have been told that it was replaced.
-void GpuRoofs::takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<uint32_t>& generations) noexcept {
-    generationOf_.swap(generations);
+void GpuRoofs::takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<RoofPlot>& plots) noexcept {
+    plots_.swap(plots);
     forgetTables();  // some may have been noted as sent
     try {
         Result<Commands> commands = Commands::begin(device_, "roofs as they were");
         if (!commands) return;
         commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
-        const auto all = std::as_bytes(std::span(generationOf_));
         for (uint32_t house : houses)
-            if (!commands->upload(set.generations, all.subspan(house * 4, 4), house * 4)) return;
+            if (!uploadPlot(*commands, set, house)) return;
         (void)commands->submit();
     } catch (const std::bad_alloc&) {
         // Without memory for this the next growth will show them.
@@ -366,7 +369,7 @@ Result<RoofRecords> GpuRoofs::read() {
                             fetch(to.planes, set.planes.buffer, last_.planes)});
         !s)
         return s.failure();
-    to.generations = generationOf_;
+    to.plots = plots_;
     return to;
 }
 

@@ -47,7 +47,7 @@ struct RoofView {
     RoofPartBuf parts{};
     Vec4Buf planes{};
     RoofMeshBuf meshes{};
-    UintBuf generations{};  // [house]: grids of another generation are gone
+    RoofPlotBuf plots{};  // [house]
     RoofLayerBuf layers{};
     RoofSite site{};
     uint32_t shownLayer = kNoIndex;  // by the view of a layer: the grammar's number, or colourLayers
@@ -76,7 +76,7 @@ struct RoofRecords {
     std::vector<RoofRegion> regions;
     std::vector<RoofPart> parts;
     std::vector<vec4> planes;
-    std::vector<uint32_t> generations;  // [house], as RoofView's
+    std::vector<RoofPlot> plots;  // [house], as RoofView's
 };
 
 class RoofGrowth {

@@ -26,7 +26,7 @@ Status GpuRoofs::ensure(Table& table, const char* name, uint64_t bytes) {
 }
 
 Status GpuRoofs::makeRoom(Set& set) {
-    const uint64_t houses = std::max<uint64_t>(generationOf_.size(), 1);
+    const uint64_t houses = std::max<uint64_t>(plots_.size(), 1);
     const struct {
         Table& table;
         const char* name;
@@ -47,7 +47,7 @@ Status GpuRoofs::makeRoom(Set& set) {
                 {status_, "roof status", sizeof(RoofStatus)},
                 {waves_, "roof waves", kRoofWaves * sizeof(RoofWave)},
                 {env_, "roof environment", sizeof(RoofEnv)},
-                {set.generations, "roof generations", houses * 4},
+                {set.plots, "roof plots", houses * sizeof(RoofPlot)},
                 {houseReads_, "what roofs read", houses * 4},
                 {means_, "roof layers' means", houses * kRoofLayers * 4}};
     for (const auto& r : rows)
@@ -175,22 +175,27 @@ Status GpuRoofs::showLayers(const RoofInputs& inputs) {
 // What is kept of each house that grows. Layers are known to grammars that declare them only.
 Status GpuRoofs::uploadHouses(Commands& commands, const RoofInputs& inputs, const Set& set,
                               std::span<const uint32_t> houses) {
-    const auto generations = std::as_bytes(std::span(generationOf_));
     const bool layered = !inputs.grammar->contexts().empty();
-    if (houses.empty() && !generationOf_.empty()) {
-        commands.fill(houseReads_, 0, 0, generations.size());
-        if (Status s = commands.upload(set.generations, generations); !s) return s;
-        return layered ? commands.upload(means_, inputs.filledMeans(generationOf_.size())) : Status(Done{});
+    if (houses.empty() && !plots_.empty()) {
+        commands.fill(houseReads_, 0, 0, plots_.size() * 4);
+        if (Status s = commands.upload(set.plots, plots_); !s) return s;
+        return layered ? commands.upload(means_, inputs.filledMeans(plots_.size())) : Status(Done{});
     }
     for (uint32_t house : houses) {
         const RoofInputs::Means means = inputs.meansOf(house);
         commands.fill(houseReads_, 0, house * 4, 4);
-        if (Status s = commands.upload(set.generations, generations.subspan(house * 4, 4), house * 4); !s) return s;
+        if (Status s = uploadPlot(commands, set, house); !s) return s;
         if (layered)
             if (Status s = commands.upload(means_, std::as_bytes(std::span(means)), house * sizeof(means)); !s)
                 return s;
     }
     return Done{};
+}
+
+Status GpuRoofs::uploadPlot(Commands& commands, const Set& set, uint32_t house) {
+    const auto plots = std::as_bytes(std::span(plots_));
+    return commands.upload(set.plots, plots.subspan(house * sizeof(RoofPlot), sizeof(RoofPlot)),
+                           house * sizeof(RoofPlot));
 }
 
 bool GpuRoofs::mayFetch(const RoofInputs& inputs, const Set& set) const {

@@ -4,6 +4,7 @@
 // A grid each: is it seen, and as cells or as a pattern? Cells' rows are listed for cull_rows.
 #include "shaders/emit/sight.h"
 #include "shaders/render/roof_clarity.glsl"
+#include "shaders/render/roof_place.glsl"
 #include "shaders/shared/dispatch.glsl"
 
 const float kLeastCaster = 0.25;   // metres: what stands out of its wall or roof by less casts no shadow worth a mesh
@@ -16,7 +17,7 @@ void main() {
     uint i = itemIndex();
     if (i >= env.gridCount) return;
     RoofGrid g = env.roofs.grids.v[i];
-    if ((g.house >> 24u) != env.roofs.generations.v[g.house & 0xFFFFFFu]) return;
+    if ((g.house >> 24u) != env.roofs.plots.v[g.house & 0xFFFFFFu].generation) return;
     if (env.table.v[0].kinds[g.mesh & 255u].variantCount == 0u) return;
     bool many = g.firstRow != kNoIndex;
     vec2 size = many ? min(g.extent, g.step * vec2(g.cells & 0xFFFFu, g.cells >> 16u)) : g.size;
@@ -25,7 +26,7 @@ void main() {
     vec3 low = vec3(min(mesh.low.xy, vec2(0.0)) * g.size, mesh.low.z * g.thickness);
     vec3 high = vec3(size + max(mesh.high.xy - 1.0, vec2(0.0)) * g.size, mesh.high.z * g.thickness);
     vec3 middle = 0.5 * (low + high);
-    vec3 center = g.origin + g.axisX * middle.x + g.axisY * middle.y + cross(g.axisX, g.axisY) * middle.z;
+    vec3 center = inWorld(env, g, g.origin + g.axisX * middle.x + g.axisY * middle.y + cross(g.axisX, g.axisY) * middle.z);
     float reach = 0.5 * length(high - low) + max(abs(g.taper.x), abs(g.taper.y));
     EmitView view = env.view.v[0];
     if (outside(view, center, reach) || hidden(view, center, reach)) return;

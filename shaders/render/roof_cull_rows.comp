@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/extensions.glsl"
 // A row of cells each: its bucket, and how many whole and cut cells it adds to that.
+#include "shaders/render/roof_place.glsl"
 #include "shaders/render/roof_row_cells.glsl"
 
 layout(local_size_x = 64) in;
@@ -18,7 +19,7 @@ void main() {
     env.rows.v[i].bucket = kNoBucket;
     if (runCount(run.touched) == 0u) return;
     EmitView view = env.view.v[0];
-    vec3 from = g.origin + g.axisY * (float(item.row) * g.step.y) + g.axisX * (float(runFirst(run.touched)) * g.step.x);
+    vec3 from = inWorld(env, g, g.origin + g.axisY * (float(item.row) * g.step.y) + g.axisX * (float(runFirst(run.touched)) * g.step.x));
     vec3 along = g.axisX * (float(runCount(run.touched)) * g.step.x);
     float reach = 0.5 * length(along) + max(g.size.x, g.size.y) + g.thickness;
     vec3 center = from + 0.5 * along;

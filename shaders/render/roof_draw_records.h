@@ -72,7 +72,7 @@ CONST_FLOAT(kRoughnessOfGlass, 0.2f);   // what is less rough mirrors
 
 CONST_UINT(kRoofShadow, 1u);   // far rectangles only, as coarse as shadows are
 struct RoofDrawEnv {
-    RoofEnv roofs;                // grids, runs, regions, parts, planes, meshes, generations
+    RoofEnv roofs;                // grids, runs, regions, parts, planes, meshes, plots
     EmitViewBuf view;
     EmitTableBuf table;
     RoofDrawStateBuf state;

@@ -1,4 +1,4 @@
-// Where a point of a grid lies in the world, and its distances from the planes that cut it.
+// Where a point of a grid lies on its house's plot and in the world, and its distances from the planes that cut it.
 #ifndef ESPALIER_ROOF_PLACE_GLSL
 #define ESPALIER_ROOF_PLACE_GLSL
 #include "shaders/render/roof_draw_records.h"
@@ -11,7 +11,12 @@ vec3 gridPoint(RoofGrid g, vec3 p) {
     return g.origin + g.axisX * p.x + g.axisY * p.y + cross(g.axisX, g.axisY) * p.z;
 }
 
-// Above 0: on the side that stays. p: world; at: the grid's own coordinates.
+vec3 inWorld(RoofDrawEnv env, RoofGrid g, vec3 p) {
+    vec2 plot = plotOf(env.roofs, g.house);
+    return p + vec3(plot.x, 0.0, plot.y);
+}
+
+// Above 0: on the side that stays. p: gridPoint(at); at: the grid's own coordinates.
 float planeDistance(RoofDrawEnv env, RoofGrid g, uint part, uint bit, vec3 p, vec3 at) {
     if (bit == 8u) return at.x;
     if (bit == 9u) return g.extent.x - at.x;

@@ -49,12 +49,13 @@ void main() {
         at.z += min(base, 0.0);
         normal = capNormal(g, mesh, edge);
     }
-    position = gridPoint(g, at);
+    vec3 onPlot = gridPoint(g, at);
+    position = inWorld(env, g, onPlot);
     surface = vec4(at.xy / max(g.step, vec2(1e-3)), mesh.high.z < 0.0 && cells.y > 1u ? 1.0 : 0.0, float(g.colour >> 24u) * (1.0 / 255.0));
     lean = -g.axisX * (g.thickness / max(g.size.x, 1e-3));
     look = uvec4(g.colour & 0xFFFFFFu, uint(g.key), (g.mesh & kGridBond) != 0u ? 1u : 0u, g.mesh);
     gl_Position = frame.viewProjection * vec4(position, 1.0);
     uint count = item.cell >= kCapLow ? 0u : env.roofs.parts.v[item.cell].counts & 255u;
     for (uint i = 0u; i < 8u; ++i)
-        gl_ClipDistance[i] = i < count ? planeDistance(env, g, item.cell, i, position, at) : 1.0;
+        gl_ClipDistance[i] = i < count ? planeDistance(env, g, item.cell, i, onPlot, at) : 1.0;
 }

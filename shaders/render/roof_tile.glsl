@@ -31,7 +31,8 @@ void main() {
     float shift = (g.mesh & kGridBond) != 0u && (row & 1u) != 0u ? -0.5 : 0.0;
     vec2 corner = vec2((float(column) + shift) * g.step.x, float(row) * g.step.y);
     vec3 at = vec3(corner + mesh.position.xy * g.size, mesh.position.z * g.thickness);
-    position = gridPoint(g, at);
+    vec3 onPlot = gridPoint(g, at);
+    position = inWorld(env, g, onPlot);
     vec3 n = octahedralToUnit(mesh.normal);
     // Normals are the mesh's in metres: what is stretched leans away.
     n = normalize(vec3(n.xy / max(g.size, vec2(1e-4)), n.z / max(g.thickness, 1e-4)));
@@ -63,7 +64,7 @@ void main() {
         if (bits != 0u) {
             uint bit = uint(findLSB(bits));
             bits &= bits - 1u;
-            d = planeDistance(env, g, tile.part, bit, position, at);
+            d = planeDistance(env, g, tile.part, bit, onPlot, at);
         }
         gl_ClipDistance[i] = d;
     }

@@ -111,9 +111,9 @@ FN void handOn(MACHINE_PARAM RoofEnv env, SuccessorRecord s, RoofScope parent, R
 FN uint quantised(float x) { return uint(int(floorExact(limited(x * 128.0f, -2e9f, 2e9f)))); }
 
 // The same whichever house grew with it, and wherever its records lie.
-FN u64 hashOfGrid(RoofGrid g) {
+FN u64 hashOfGrid(RoofGrid g, vec2 plot) {
     u64 hash = mix64(g.key + mix64((u64(g.cells) << 32) | u64(g.mesh)));
-    hash = mix64(hash + ((u64(quantised(g.origin.x)) << 32) | u64(quantised(g.origin.z))));
+    hash = mix64(hash + ((u64(quantised(g.origin.x) + quantised(plot.x)) << 32) | u64(quantised(g.origin.z) + quantised(plot.y))));
     return mix64(hash + ((u64(quantised(g.origin.y)) << 32) | u64(quantised(g.size.x * 16.0f))));
 }
 
@@ -143,10 +143,10 @@ FN void writeGrid(RoofEnv env, RoofScope shape, uint house, uint mesh, INOUT(Roo
     g.shrink = rcpExact(shape.stretch);
     g.region = shape.region;
     g.atom = shape.atom;
-    g.house = house | (env.generations.v[house] << 24u);
+    g.house = house | (env.plots.v[house].generation << 24u);
     g.firstRow = many ? place.row : kNoIndex;
     writeGridRecord(env, place.grid, g);
-    u64 hash = hashOfGrid(g);
+    u64 hash = hashOfGrid(g, plotOf(env, house));
     tally.hash = tally.hash + uvec2(uint(hash), uint(hash >> 32));
     uvec2 cells = uvec2(1u, 1u);
     if (many) cells = gridRuns(env, g);
@@ -267,7 +267,7 @@ FN RoofChoice chosenRule(MACHINE_PARAM RoofEnv env, RoofScope shape, RoofAtom at
     do {
         c.rule = roofRule(env, number);
         uint inputs = choosing ? symbol.inputs : c.rule.startInputs;
-        if ((inputs & ~given) != 0u) giveShape(MACHINE shape, atom, face, inputs);
+        if ((inputs & ~given) != 0u) giveShape(MACHINE shape, atom, face, plotOf(env, atom.house), inputs);
         given |= inputs;
         if ((kRoofUses & kRoofUsesLayers) != 0u)
             giveLayers(MACHINE env, shape, atom.house, choosing ? symbol.layers : c.rule.startLayers);
@@ -343,7 +343,7 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, RoofAtom atom, RoofRegion face, 
             RoofChild c = childFor(shape, 0u);
             if (ROOF_USES(kRuleExtrude) && kind == kRuleExtrude) c = extruded(n, shape, k);
             if (ROOF_USES(kRuleJoinRoof) && kind == kRuleJoinRoof) c = joinedRoof(env, n, shape, atom, face, k);
-            if (ROOF_USES(kRuleJoin) && kind == kRuleJoin) c = joined(env, n, shape, k);
+            if (ROOF_USES(kRuleJoin) && kind == kRuleJoin) c = joined(env, n, shape, plotOf(env, atom.house), k);
             if (ROOF_USES(kRuleProject) && kind == kRuleProject) c = projected(n, shape);
             if (ROOF_USES(kRuleExplode) && kind == kRuleExplode) c = exploded(env, shape, atom, face, k);
             if (ROOF_USES(kRuleSplit) && kind == kRuleSplit) c = splitPart(rule, n, shape, k);

@@ -41,6 +41,9 @@ FN float cellHold(u64 key, uint column, uint row) {
     return float(own + shared_) * 7.62939453e-6f;   // 2^-17
 }
 
+// From the house's plot to the world, in the plan.
+FN vec2 plotOf(RoofEnv env, uint house) { return env.plots.v[house & 0xFFFFFFu].at; }
+
 // False for a grid that no layer takes cells from.
 FN bool mayDrop(RoofEnv env, RoofGrid g) {
     uint layer = (g.mesh >> kGridDrop) & 15u;
@@ -50,7 +53,7 @@ FN bool mayDrop(RoofEnv env, RoofGrid g) {
 FN bool cellDropped(RoofEnv env, RoofGrid g, uint column, uint row) {
     float shift = (g.mesh & kGridBond) != 0u && (row & 1u) != 0u ? 0.0f : 0.5f;
     vec3 p = g.origin + g.axisX * ((float(column) + shift) * g.step.x) + g.axisY * ((float(row) + 0.5f) * g.step.y);
-    return roofLayerAt(env.layers, env.site, ((g.mesh >> kGridDrop) & 15u) - 1u, vec2(p.x, p.z)) >
+    return roofLayerAt(env.layers, env.site, ((g.mesh >> kGridDrop) & 15u) - 1u, vec2(p.x, p.z) + plotOf(env, g.house)) >
            cellHold(g.key, column, row);
 }
 

@@ -4,6 +4,9 @@
 //
 // A region has a frame of its own: a along the eave, b across it in the plan (of upright faces: up), c out of that. It is
 // cut into convex parts of up to eight half-spaces, so that a terminal is clipped part by part by as many planes.
+//
+// What is recorded of a house counts from a plot of its own, whole metres from the world's origin: so roofs are the same to
+// the bit wherever a house stands.
 #ifndef ESPALIER_SHARED_ROOF_RECORDS_H
 #define ESPALIER_SHARED_ROOF_RECORDS_H
 #include "shaders/shared/rule_map.h"
@@ -34,7 +37,7 @@ STATIC_SIZE(RoofPiece, 64);
 // 128 bytes. Tier 0's shape begins as the segment at the wall's foot.
 struct RoofAtom {
     u64 key;
-    vec3 foot;          // the wall's foot below the eave's begin, world
+    vec3 foot;          // the wall's foot below the eave's begin, on the house's plot
     vec3 tangent;       // along the eave, unit, level
     float eaveLength;
     float wallHeight;   // from the foot to the eave
@@ -57,10 +60,13 @@ STATIC_SIZE(RoofAtom, 128);
 CONST_UINT(kAtomGoesOn, 1u << 17u);    // one with an atom above it
 CONST_UINT(kAtomRidged, 1u << 18u);    // a ridge
 CONST_UINT(kAtomChimneys, 19u);        // first bit
+CONST_UINT(kAtomOpen, 1u << 21u);      // of the house: a roof on posts
+CONST_UINT(kAtomShared, 23u);          // first of 9 bits: quarters of a metre of the wall that a neighbour covers, or
+CONST_UINT(kAtomClosed, 511u);         // a neighbour stands higher than the eave, and ends the roof
 
 // 80 bytes. A region of a face first, then those that Join makes.
 struct RoofRegion {
-    vec3 origin;
+    vec3 origin;        // on the house's plot
     vec3 axisA, axisB, axisC;
     vec2 low, high;     // bounds in a and b
     uint firstPart, partCount;
@@ -118,7 +124,7 @@ CONST_UINT(kGridMoss, 20u);            // bits 23..20: likewise, that moss grows
 // 128 bytes: what is drawn.
 struct RoofGrid {
     u64 key;
-    vec3 origin, axisX, axisY;
+    vec3 origin, axisX, axisY;   // on the house's plot
     vec2 size, step, extent, taper;
     uint cells;
     uint mesh;
@@ -140,6 +146,14 @@ struct RoofRun {
     uint whole;
 };
 STATIC_SIZE(RoofRun, 8);
+
+// A house's: where what is recorded of it counts from, and which of its grids are drawn.
+struct RoofPlot {
+    vec2 at;            // world x and z, whole metres
+    uint generation;    // grids of another are gone
+    uint spare;
+};
+STATIC_SIZE(RoofPlot, 16);
 
 // A terminal mesh's bounds, in units of its cell's size (z: metres).
 struct RoofMesh {
@@ -197,6 +211,7 @@ BUFFER(RoofScopeBuf, RoofScope)
 BUFFER(RoofGridBuf, RoofGrid)
 BUFFER(RoofRunBuf, RoofRun)
 BUFFER(RoofMeshBuf, RoofMesh)
+BUFFER(RoofPlotBuf, RoofPlot)
 BUFFER(RoofStatusBuf, RoofStatus)
 BUFFER(RoofWaveBuf, RoofWave)
 BUFFER(Vec4Buf, vec4)
@@ -215,7 +230,7 @@ struct RoofEnv {
     RoofMeshBuf meshes;
     RoofStatusBuf status;
     RoofWaveBuf waves;
-    UintBuf generations;      // [house]
+    RoofPlotBuf plots;        // [house]
     uint wave;
     uint shapeRoom, gridRoom, rowRoom, regionRoom, partRoom, planeRoom;
     uint startSymbol;         // of the first wave's shapes

@@ -115,10 +115,10 @@ FN vec4 leftOf(vec2 a, vec2 b) {
     return vec4(d.y * k, -d.x * k, 0.0f, (d.y * a.x - d.x * a.y) * k);
 }
 
-// Join to any two points: the plane through the segment and their middle.
-FN RoofChild joined(RoofEnv env, RoofNumbers n, RoofScope shape, uint k) {
-    vec3 t1 = vec3(n.v[1], shape.origin.y + n.v[0], n.v[3]);
-    vec3 t2 = vec3(n.v[4], shape.origin.y + n.v[0], n.v[6]);
+// Join to any two points of the world: the plane through the segment and their middle.
+FN RoofChild joined(RoofEnv env, RoofNumbers n, RoofScope shape, vec2 plot, uint k) {
+    vec3 t1 = vec3(n.v[1] - plot.x, shape.origin.y + n.v[0], n.v[3] - plot.y);
+    vec3 t2 = vec3(n.v[4] - plot.x, shape.origin.y + n.v[0], n.v[6] - plot.y);
     vec3 p = shape.origin;
     vec3 x = shape.axisX;
     float w = shape.size.x;

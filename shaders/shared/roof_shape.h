@@ -39,17 +39,18 @@ FN void giveLayers(MACHINE_PARAM RoofEnv env, RoofScope shape, uint house, uint 
     vec3 p = shape.origin + shape.axisX * (0.5f * shape.size.x) + shape.axisY * (0.5f * shape.size.y);
     uint i = 0u;
     do {
-        if ((layers >> i & 1u) != 0u) SLOT(kSlotLayer + i) = roofLayerAt(env.layers, env.site, i, vec2(p.x, p.z));
+        if ((layers >> i & 1u) != 0u) SLOT(kSlotLayer + i) = roofLayerAt(env.layers, env.site, i, vec2(p.x, p.z) + plotOf(env, house));
         if ((layers >> (i + kRoofLayers) & 1u) != 0u) SLOT(kSlotLayer + kRoofLayers + i) = env.means.v[house * kRoofLayers + i];
         i += 1u;
     } while (((layers | layers >> kRoofLayers) & 255u) >> i != 0u);
     roofOr(env.reads.v[house], layers);
 }
 // inputs: as the compiler notes them for these slots, by their places among a plant's.
-// atom: the shape's; face: its region, where it has one.
-FN void giveShape(MACHINE_PARAM RoofScope shape, RoofAtom atom, RoofRegion face, uint inputs) {
-    giveVector(MACHINE kSlotPos0, shape.origin);
-    giveVector(MACHINE kSlotPos1, shape.origin + shape.axisX * shape.size.x);
+// atom: the shape's; face: its region, where it has one; plot: from its house's records to the world.
+FN void giveShape(MACHINE_PARAM RoofScope shape, RoofAtom atom, RoofRegion face, vec2 plot, uint inputs) {
+    vec3 there = vec3(plot.x, 0.0f, plot.y);
+    giveVector(MACHINE kSlotPos0, shape.origin + there);
+    giveVector(MACHINE kSlotPos1, shape.origin + shape.axisX * shape.size.x + there);
     giveVector(MACHINE kSlotLocalNormal, cross3(shape.axisX, shape.axisY));
     giveVector(MACHINE kSlotLocalTangent, shape.axisX);
     giveVector(MACHINE kSlotEaveTangent, atom.tangent);
@@ -61,8 +62,8 @@ FN void giveShape(MACHINE_PARAM RoofScope shape, RoofAtom atom, RoofRegion face,
         target2 = regionPoint(face, atom.target2, shape.base, shape.stretch);
         start = -face.low.x;
     }
-    giveVector(MACHINE kSlotRoofPos1, target1);
-    giveVector(MACHINE kSlotRoofPos2, target2);
+    giveVector(MACHINE kSlotRoofPos1, target1 + there);
+    giveVector(MACHINE kSlotRoofPos2, target2 + there);
     SLOT(kSlotRoofHeight) = atom.height;
     SLOT(kSlotRoofSlope) = atom.slope;
     SLOT(kSlotProjectHeight) = shape.projectHeight;
@@ -86,6 +87,9 @@ FN void giveShape(MACHINE_PARAM RoofScope shape, RoofAtom atom, RoofRegion face,
     SLOT(kSlotCorners + 1u) = atom.corners.y;
     SLOT(kSlotHouseOverhang) = atom.overhang;
     SLOT(kSlotHouseChimneys) = float((atom.style >> kAtomChimneys) & 3u);
+    SLOT(kSlotHouseOpen) = (atom.style & kAtomOpen) != 0u ? 1.0f : 0.0f;
+    uint covered = atom.style >> kAtomShared;
+    SLOT(kSlotWallShared) = covered == kAtomClosed ? atom.wallHeight : 0.25f * float(covered);
 }
 
 // A rule's numbers, kept while its successors' code runs.

@@ -58,7 +58,7 @@ CONST_UINT(kSlotIndex, 69u);        // number of the instance in its Repeat
 CONST_UINT(kSlotCount, 70u);        // how many the Repeat makes (the gate's count, limited); set before the body
 CONST_UINT(kSlotZero, 71u);         // constants, set by resetMachine
 CONST_UINT(kSlotOne, 72u);
-CONST_UINT(kMachineSlots, 92u);
+CONST_UINT(kMachineSlots, 94u);
 CONST_UINT(kSlotImmediate, 127u);   // the word's own constant
 
 // What the same slots hold for roofs (roof_expand.h fills them; Buron 2013 §3.2): a grammar of roofs has no walk.
@@ -90,6 +90,8 @@ CONST_UINT(kSlotHouseTinted, 87u);  // 1: the house has a colour of its own
 CONST_UINT(kSlotCorners, 88u);      // 2: RoofAtom::corners
 CONST_UINT(kSlotHouseOverhang, 90u);   // metres; 0: as the grammar says
 CONST_UINT(kSlotHouseChimneys, 91u);   // 0: as the grammar says, 1: none, 2: on every ridge
+CONST_UINT(kSlotHouseOpen, 92u);       // 1: a roof on posts, without walls
+CONST_UINT(kSlotWallShared, 93u);      // metres from the wall's foot that a neighbour covers; wallHeight: it ends the roof
 
 // Masks of inputs. Layers have a mask of their own (bit i: kSlotLayer + i).
 CONST_UINT(kInputAngle, 1u);            // bits 0..3: kSlotAngle + i

@@ -356,6 +356,32 @@ static void grammarGone(EspContext* context, EspGrammar grammar) {
     }
 }
 
+/* Where a town's plan has its origin, in degrees or in metres of the plan. */
+static void origins(EspContext* context) {
+    static const char* const degrees =
+        "{\"type\": \"Polygon\", \"coordinates\": [[[11.5,48.1],[11.5002,48.1],[11.5002,48.1001],[11.5,48.1]]]}";
+    static const char* const far =
+        "{\"buildings\": [{\"outer\": [[691603,5334760],[691613.25,5334760],[691603,5334769.35]]}]}";
+    EspTownInfo info;
+    EspHouseInfo house;
+    EspTownDef load = espDefaultTownDef();
+    OK(context, espTownInfo(context, &info));
+    CHECK(!info.geographic && info.origin[0] == 0 && info.origin[1] == 0);
+    load.text = degrees;
+    load.length = strlen(degrees);
+    OK(context, espLoadTown(context, &load));
+    OK(context, espTownInfo(context, &info));
+    CHECK(info.geographic && fabs(info.origin[0] - 11.5) < 1e-3 && fabs(info.origin[1] - 48.1) < 1e-3);
+    load.text = far;
+    load.length = strlen(far);
+    OK(context, espLoadTown(context, &load));
+    OK(context, espTownInfo(context, &info));
+    CHECK(!info.geographic && info.origin[0] == 691603 && info.origin[1] == 5334760);
+    OK(context, espHouseInfo(context, 0, &house));
+    CHECK(fabsf(house.boundsMax[0] - house.boundsMin[0] - 10.25f) < 1e-3f);
+    CHECK(fabsf(house.boundsMax[2] - house.boundsMin[2] - 9.35f) < 1e-3f);
+}
+
 int main(void) {
     EspContext* context = NULL;
     EspContextDef def = espDefaultContextDef();
@@ -424,6 +450,10 @@ int main(void) {
     CHECK(fabsf(house.boundsMin[0] - 92) < 1e-2f && fabsf(house.boundsMin[2] + 150) < 1e-2f && house.baseHeight == 5);
     OK(context, espUpdate(context));
     grammarGone(context, grammar);
+    load.turn = 0;
+    load.grammar.id = 0;
+    OK(context, espLoadTown(context, &load));
+    origins(context);
     OK(context, espRemoveTown(context));
     CHECK(espHouseCount(context) == 0);
     OK(context, espUpdate(context));

@@ -112,7 +112,7 @@ TEST_CASE("one bad feature leaves the rest of the town standing") {
           std::pair(feature("", R"([[["a","b"],[11.5002,49.9],[11.5,49.8]]])"), "isn't two numbers"),
           std::pair(feature("", "[[[11.5],[11.5002,49.9],[11.5,49.8]]]"), "isn't two numbers"),
           std::pair(feature("", "[]"), "has no rings"), std::pair(feature("", "5"), "has no coordinates"),
-          std::pair(feature("", "[11.5,49.9]", "Point"), "is a Point"),
+          std::pair(feature("", "[11.5,49.9]", "Point"), "1 feature is no house: left out (1 Point)"),
           std::pair(std::string(R"({"type":"Feature","id":"way/7"})"), "has no geometry"),
           std::pair(std::string(R"({"type":"Feature","id":"way/7","geometry":null})"), "has no geometry"),
           std::pair(std::string("17"), "is not an object"),
@@ -121,7 +121,7 @@ TEST_CASE("one bad feature leaves the rest of the town standing") {
         Town t = town(R"({"type":"FeatureCollection","features":[)" + good + "," + bad + "," + good + "]}");
         CHECK(t.footprints.size() == 2);
         CHECK(says(t.diagnostics, cause));
-        CHECK(t.diagnostics[0].rule != "");
+        CHECK(t.diagnostics.size() == 1);
     }
 }
 

@@ -69,6 +69,7 @@ RoofTriangles writtenOut(const Sheeted& town, CpuRoofs& grown) {
     env.planes.v = grown.records.planes.data();
     env.meshes.v = const_cast<RoofMesh*>(town.bounds.data());
     env.layers.v = layers;
+    env.plots.v = grown.records.plots.data();
     RoofTriangles out;
     for (const RoofGrid& grid : grown.records.grids) CHECK(appendGrid(env, grid, town.meshes, out));
     RoofTriangles few;  // one that is given no room stops at once

@@ -201,8 +201,6 @@ TEST_CASE("cells are made where their face is, and whole where it covers them") 
         for (const RoofGrid& g : cpu.records.grids) {
             // The outline in the grid's own coordinates, from the structure; hips cut several faces of one edge apart.
             std::vector<std::vector<glm::dvec2>> outlines;
-            const RoofHouse& house = r.structure.houses[0];
-            const glm::dvec3 origin(house.origin.x, 0, -house.origin.y);
             std::set<uint32_t> edges;  // atoms of a hip are its eaves, in the order of edges
             for (const RoofFace& face : r.structure.faces) edges.insert(face.edge);
             for (const RoofFace& face : r.structure.faces) {
@@ -213,7 +211,7 @@ TEST_CASE("cells are made where their face is, and whole where it covers them") 
                     corners.push_back(r.structure.segments[face.firstSegment + i].to);
                 std::vector<glm::dvec2> outline;
                 for (glm::dvec3 c : corners) {
-                    const glm::dvec3 d = c + origin - glm::dvec3(g.origin);
+                    const glm::dvec3 d = c - glm::dvec3(g.origin);
                     outline.emplace_back(glm::dot(d, glm::dvec3(g.axisX)), glm::dot(d, glm::dvec3(g.axisY)));
                 }
                 outlines.push_back(outline);
@@ -313,7 +311,7 @@ TEST_CASE("layers are read at a shape's place and over its house, alike on both 
         const uint32_t house = g.house & 0xFFFFFFu;
         // A wall stands on its eave, whose middle is where it is asked.
         const RoofAtom& atom = r.tables.atoms[g.atom];
-        const float middle = atom.foot.x + atom.tangent.x * atom.eaveLength / 2;
+        const float middle = cpu.records.plots[house].at.x + atom.foot.x + atom.tangent.x * atom.eaveLength / 2;
         CHECK(g.size.x == doctest::Approx(house == 2 ? 1.5f : 1.1f + middle / 100).epsilon(1e-4));
     }
     for (uint32_t h = 0; h < 4; ++h) CHECK(cpu.reads[h] == (h == 2 ? 0x600u : 0x601u));

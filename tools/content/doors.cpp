@@ -63,7 +63,8 @@ Result<std::vector<Door>> findDoors(const std::string& town, const std::string& 
         if (terminals.names[g.mesh & 255u] != "door") continue;
         const glm::vec3 x(g.axisX), out = glm::cross(x, glm::vec3(g.axisY)),
                                     sill = glm::vec3(g.origin) + x * (g.size.x / 2);
-        doors.push_back({{sill.x, sill.z}, glm::normalize(glm::vec2(out.x, out.z))});
+        const glm::vec2 plot = grown.records.plots[g.house & 0xFFFFFFu].at;
+        doors.push_back({plot + glm::vec2(sill.x, sill.z), glm::normalize(glm::vec2(out.x, out.z))});
     }
     // Growth knows no order.
     std::sort(doors.begin(), doors.end(),

@@ -46,6 +46,7 @@ void describeLook(const scene::Scene& scene, SceneFile& out) {
     out.exposure = scene.look.exposure;
     out.shadows = scene.look.shadows != 0;
     if (own.ground) out.groundLevel = own.groundLevel;
+    out.groundOvergrows = own.groundOvergrows != 0;
     out.hasCamera = true;
     out.eye = three(scene.camera.eye);
     out.target = three(scene.camera.target);

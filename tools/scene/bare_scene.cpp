@@ -63,7 +63,7 @@ float largestSide(const EspSurfaceInfo& info) {
     return size;
 }
 
-constexpr float kSunken = .002f;  // of its size, that a model stands in the ground, so that no gap shows
+constexpr float kAbove = .001f;  // of its size, that a model stands above the ground: a pixel or so
 
 // Lengths of the default ivy suit a wall of some metres. What is smaller is a model of something large: its leaves are
 // smaller, never larger than life; and stems are to get half-way up whatever it is.
@@ -98,11 +98,14 @@ bool loadAtLivingSize(EspContext* context, LoadedSurface& surface, EspSurfaceInf
     return true;
 }
 
-// What stands alone gets something to stand on; the eye is not to be below it.
+// What stands alone gets something to stand on, below all of it, floors too. The eye is not to be below it.
 void layGround(float level, Scene& scene) {
     scene.ownLook.ground = 1;
     scene.ownLook.groundLevel = level;
-    scene.camera.eye[1] = std::max(scene.camera.eye[1], level + .02f * std::abs(scene.camera.eye[2]));
+    scene.ownLook.groundOvergrows = 0;
+    EspCamera& camera = scene.camera;
+    const float away = std::hypot(camera.eye[0] - camera.target[0], camera.eye[2] - camera.target[2]);
+    camera.eye[1] = std::max(camera.eye[1], level + .02f * away);
 }
 
 }  // namespace
@@ -134,7 +137,7 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
     fitToModel(context, info, grammar);
     plantAround(context, info, request.seed.value_or(1), out);
     out.camera = espFrameAll(context);
-    layGround(info.boundsMin[1] + kSunken * largestSide(info), out);
+    layGround(info.boundsMin[1] - kAbove * largestSide(info), out);
     return true;
 }
 

@@ -62,8 +62,10 @@ class Reader : JsonChecks {
             vector(*sky, "background", out_.background);
             vector(*sky, "horizon", out_.horizon);
         }
-        if (const Json* ground = json.find("ground"); ground && isObject(*ground, "'ground'", {"level"}))
+        if (const Json* ground = json.find("ground"); ground && isObject(*ground, "'ground'", {"level", "overgrows"})) {
             number(*ground, "level", -1e5f, 1e5f, out_.groundLevel.emplace(0.f));
+            flag(*ground, "overgrows", out_.groundOvergrows);
+        }
         number(json, "exposure", -kMostExposure, kMostExposure, out_.exposure);
     }
 
@@ -313,6 +315,7 @@ void SceneFile::applyLook(EspLook& look) const {
     look.shadows = shadows;
     look.ground = groundLevel.has_value();
     look.groundLevel = groundLevel.value_or(0);
+    look.groundOvergrows = groundOvergrows;
 }
 
 bool readSceneFile(const std::string& path, SceneFile& out, std::string& error) {

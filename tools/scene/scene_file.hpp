@@ -57,6 +57,7 @@ struct SceneFile {
     float hour = kOwnSun;
     bool shadows = true;
     std::optional<float> groundLevel;  // a ground is drawn there, to the horizon
+    bool groundOvergrows = true;       // its grass grows over what of models lies almost as low
 
     void applyLook(EspLook& look) const;
 };

@@ -142,6 +142,7 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     if (!sun.empty()) json["sun"] = sun;
     if (!sky.empty()) json["sky"] = sky;
     if (file.groundLevel) json["ground"] = {{"level", shortest(*file.groundLevel)}};
+    if (file.groundLevel && !file.groundOvergrows) json["ground"]["overgrows"] = false;
     if (file.exposure != 0) json["exposure"] = shortest(file.exposure);
     return textOf(json, 1) + "\n";
 }

@@ -21,9 +21,16 @@ constexpr size_t kMostBytes = 3u << 30;  // a glTF binary counts in 32 bits
 
 class GlbWriter {
   public:
-    // False when the file would grow beyond what its format can count.
-    bool add(const std::string& name, const RoofTriangles& mesh) {
+    // A house's triangles on its plot, `at` in the town: its node is moved there if that is so far away that floats
+    // would lose what the triangles hold. False when the file would grow beyond what its format can count.
+    bool add(const std::string& name, RoofTriangles mesh, glm::vec2 at) {
+        constexpr float kFar = 1000;  // metres
         if (mesh.indices.empty()) return true;
+        json node = {{"name", name}, {"mesh", root_["nodes"].size()}};
+        if (glm::length(at) > kFar)
+            node["translation"] = {at.x, 0, at.y};
+        else
+            for (glm::vec3& p : mesh.positions) p += glm::vec3(at.x, 0, at.y);
         const size_t bytes = mesh.bytes();
         if (binary_.size() + bytes > kMostBytes) return false;
         glm::vec3 low(1e30f), high(-1e30f);
@@ -35,7 +42,7 @@ class GlbWriter {
         const json colour = accessor(mesh.colours, 34962, 5121, "VEC4");
         root_["accessors"].back()["normalized"] = true;
         const json indices = accessor(mesh.indices, 34963, 5125, "SCALAR");
-        root_["nodes"].push_back({{"name", name}, {"mesh", root_["nodes"].size()}});
+        root_["nodes"].push_back(std::move(node));
         root_["meshes"].push_back(
             {{"name", name},
              {"primitives",
@@ -44,7 +51,7 @@ class GlbWriter {
                                 {"material", 0}}})}});
         return true;
     }
-    Status write(const std::string& path, const std::string& footprints) {
+    Status write(const std::string& path, const std::string& footprints, const Town& town) {
         json nodes = json::array();
         for (size_t i = 0; i < root_["nodes"].size(); ++i) nodes.push_back(i);
         root_["asset"] = {{"version", "2.0"}, {"generator", "espalier-bake " ESPALIER_VERSION}};
@@ -54,7 +61,8 @@ class GlbWriter {
         root_["materials"] =
             json::array({json{{"name", "town"}, {"doubleSided", true}, {"pbrMetallicRoughness", surface}}});
         root_["extensionsUsed"] = json::array({"ESPALIER_town"});
-        root_["extensions"]["ESPALIER_town"] = {{"footprints", footprints}};
+        root_["extensions"]["ESPALIER_town"] = {
+            {"footprints", footprints}, {"origin", {town.origin.x, town.origin.y}}, {"geographic", town.geographic}};
         root_["buffers"] = json::array({json{{"byteLength", binary_.size()}}});
         return writeGlb(path, root_.dump(-1, ' ', false, json::error_handler_t::replace),
                         std::as_bytes(std::span(binary_)));
@@ -113,6 +121,8 @@ Status addTiles(const TownArguments& arguments, const RoofStructure& structure, 
     env.parts.v = roofs.records.parts.data();
     env.planes.v = roofs.records.planes.data();
     env.meshes.v = const_cast<RoofMesh*>(bounds.data());
+    std::vector<RoofPlot> onPlots(structure.houses.size());  // triangles are written where their house's plot begins
+    env.plots.v = onPlots.data();
     RoofLayer layers[kRoofLayers] = {};  // nothing is painted
     for (uint32_t i = 0; i < kRoofLayers; ++i) layers[i].fill = inputs.fill(i);
     env.layers.v = layers;
@@ -130,7 +140,7 @@ Status addTiles(const TownArguments& arguments, const RoofStructure& structure, 
             for (uint32_t g : gridsOf[h])
                 if (!appendGrid(env, roofs.records.grids[g], *meshes, mesh, kMostBytes)) break;  // which add() refuses
         triangles += mesh.indices.size() / 3;
-        if (!glb.add(structure.houses[h].id, mesh))
+        if (!glb.add(structure.houses[h].id, std::move(mesh), tables.plots[h].at))
             return Failure(arguments.output,
                            "more than 3 GiB of triangles: leave the grammar out, or give fewer houses");
     }
@@ -184,11 +194,12 @@ Status bakeTown(const TownArguments& arguments) {
             RoofTriangles mesh;
             appendMassing(structure, h, mesh);
             triangles += mesh.indices.size() / 3;
-            if (!glb.add(structure.houses[h].id, mesh))
+            const glm::dvec2 origin = structure.houses[h].origin;
+            if (!glb.add(structure.houses[h].id, std::move(mesh), glm::vec2(origin.x, -origin.y)))
                 return Failure(arguments.output, "more than 3 GiB of triangles");
         }
     }
-    if (Status s = glb.write(arguments.output, *text); !s) return s;
+    if (Status s = glb.write(arguments.output, *text, *town); !s) return s;
     if (!arguments.quiet)
         std::fprintf(stderr, "%zu footprints: %zu houses, %zu triangles\n", town->footprints.size(),
                      structure.houses.size(), triangles);

@@ -58,11 +58,10 @@ void appendPolygon(std::vector<glm::vec3> p, uint32_t colour, RoofTriangles& out
 
 void appendMassing(const RoofStructure& structure, uint32_t index, RoofTriangles& out) {
     const RoofHouse& house = structure.houses[index];
-    auto placed = [&](glm::vec3 p) { return glm::vec3(house.origin.x + p.x, p.y, p.z - house.origin.y); };
     for (const auto& ring : house.rings)
-        for (size_t i = 0; i < ring.size(); ++i) {
+        for (size_t i = 0; i < ring.size() && !house.open; ++i) {
             const glm::vec2 a = ring[i], b = ring[(i + 1) % ring.size()];
-            auto at = [&](glm::vec2 p, float y) { return placed({p.x, y, -p.y}); };
+            auto at = [&](glm::vec2 p, float y) { return glm::vec3(p.x, y, -p.y); };
             appendPolygon(
                 {at(a, house.baseHeight), at(b, house.baseHeight), at(b, house.eaveHeight), at(a, house.eaveHeight)},
                 kWallColour, out);
@@ -71,7 +70,7 @@ void appendMassing(const RoofStructure& structure, uint32_t index, RoofTriangles
         const RoofFace& face = structure.faces[f];
         std::vector<glm::vec3> outline;
         auto add = [&](glm::vec3 p) {
-            if (outline.empty() || outline.back() != placed(p)) outline.push_back(placed(p));
+            if (outline.empty() || outline.back() != p) outline.push_back(p);
         };
         if (!face.detached) add(face.eave[0]), add(face.eave[1]);
         for (uint32_t i = 0; i < face.segmentCount; ++i) add(structure.segments[face.firstSegment + i].to);

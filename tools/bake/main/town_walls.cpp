@@ -1,5 +1,6 @@
-// In: a house's outline, its gables and the grids of its walls. Out: triangles. All walls of a house are divided at the
-// same heights, so that they meet in equal corners; cells under an opening are left out, those at a roof are cut.
+// In: a house's outline, its gables and the grids of its walls, on its plot. Out: triangles there. All walls of a house
+// are divided at the same heights, so that they meet in equal corners; cells under an opening are left out, those at a
+// roof are cut.
 #include "tools/bake/main/town_walls.hpp"
 
 #include <algorithm>
@@ -161,12 +162,17 @@ class Builder {
         size_t first = 0;
         for (size_t size : sizes) {
             for (size_t i = 0; i < size; ++i)
-                write(walls_[first + (i + size - 1) % size], walls_[first + i], walls_[first + (i + 1) % size]);
+                if (!hidden(first + i))
+                    write(walls_[first + (i + size - 1) % size], walls_[first + i], walls_[first + (i + 1) % size]);
             first += size;
         }
     }
 
   private:
+    // A neighbour stands against all of it, or there is none.
+    bool hidden(size_t wall) const {
+        return house_.open || (wall < house_.shared.size() && house_.shared[wall] == kEndsRoof);
+    }
     float eave() const { return std::max(house_.eaveHeight - house_.baseHeight - kBelowRoof, kLeast); }
     // Walls go up to the verges of their gables. Where a roof breaks, one gable is a face below and others above.
     void raiseGables() {
@@ -182,7 +188,7 @@ class Builder {
         const Wall& wall = walls_[face.edge];
         std::vector<glm::vec2> line;
         const auto add = [&](glm::vec3 p) {
-            const glm::vec3 at = p + glm::vec3(house_.origin.x, 0, -house_.origin.y) - wall.foot;
+            const glm::vec3 at = p - wall.foot;
             line.push_back({glm::dot(at, wall.along), std::max(at.y - kBelowRoof, kLeast)});
         };
         for (uint32_t i = face.segmentCount; i-- > 0;) add(structure_.segments[face.firstSegment + i].to);
@@ -192,7 +198,7 @@ class Builder {
     Wall wallFrom(glm::vec2 a, glm::vec2 b) const {
         Wall wall;
         const glm::vec2 to = (b - a) / glm::distance(a, b);
-        wall.foot = {house_.origin.x + a.x, house_.baseHeight, -a.y - house_.origin.y};
+        wall.foot = {a.x, house_.baseHeight, -a.y};
         wall.along = {to.x, 0, -to.y};
         wall.out = {to.y, 0, to.x};
         wall.length = glm::distance(a, b);
