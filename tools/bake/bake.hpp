@@ -15,10 +15,12 @@ namespace espalier {
 struct Model {
     std::string name;                        // the file's path, for messages
     std::vector<glm::vec3> positions;        // metres, one a vertex
+    glm::dvec3 origin{0};                    // metres: what has been taken off the file's positions
     std::vector<glm::vec3> normals;          // same length, or empty
     std::vector<glm::vec2> uvs;              // the UV set that the walk's charts come from, same length, or empty;
                                              // NaN: this vertex has none
     std::vector<glm::vec2> materialUvs;      // same length, or empty: uvs
+    std::vector<glm::vec4> colours;          // linear, times the materials'; same length, or empty: white
     std::vector<uint32_t> indices;           // three a triangle
     std::vector<uint32_t> triangleMaterial;  // one a triangle, or empty: material 0
     std::vector<Material> materials;

@@ -25,8 +25,13 @@ class Intake {
 
     // A file's bytes, unpacked where they are gzip. A failure blames `blame`, the file that refers to this one.
     Result<std::vector<uint8_t>> read(const std::string& path, const std::string& blame);
-    // A file that a document refers to by a path relative to it (no absolute ones).
+    // A file that a document refers to, by the rule of placeBeside (runtime/core/file_beside.hpp).
     Result<std::vector<uint8_t>> readBeside(const std::string& document, const std::string& name);
+    // Whether there is such a file.
+    bool isBeside(const std::string& document, const std::string& name);
+
+    // Counts a file among those that the import depends on, without reading it for the model.
+    void note(const std::string& path);
 
     // False: so many bytes more are beyond what files of this size can reasonably hold.
     bool take(uint64_t bytes);
@@ -40,16 +45,17 @@ class Intake {
 
 // Each fails naming the file and the line, element or offset concerned.
 Status importGltf(const std::string& path, Bytes file, const ImportOptions& options, Intake& intake, Model& model);
-Status importObj(const std::string& path, Bytes file, Intake& intake, Model& model);
-Status importPly(const std::string& path, Bytes file, Model& model);
+Status importObj(const std::string& path, Bytes file, const ImportOptions& options, Intake& intake, Model& model);
+Status importPly(const std::string& path, Bytes file, const ImportOptions& options, Intake& intake, Model& model);
+Status importStl(const std::string& path, Bytes file, const ImportOptions& options, Model& model);
 
 // Decodes a PNG or JPEG within what the intake allows; `encoded` keeps the bytes.
 Result<Picture> readPicture(std::vector<uint8_t> bytes, const std::string& file, Intake& intake);
 
-// Appends the triangles of a polygon, corners into `positions`: ears are cut in the polygon's mean plane, so that
-// concave ones are filled right; three corners or more, of any shape.
-void triangulate(const std::vector<glm::vec3>& positions, std::span<const uint32_t> polygon,
-                 std::vector<uint32_t>& triangles);
+// Sets the model's positions and its origin, by which they are less than `places`: the one that is wanted, else one
+// where float32 would lose what matters. used: the vertices that triangles name; others needn't be numbers.
+void settle(const std::vector<glm::dvec3>& places, std::span<const uint32_t> used,
+            const std::optional<glm::dvec3>& wanted, Model& model);
 
 // Decides which materials are bare: those that readers have marked, being transparent, and by the options' names.
 void decideBare(const ImportOptions& options, Model& model);
