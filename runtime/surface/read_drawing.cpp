@@ -70,6 +70,13 @@ void readMaterials(Container& file, SurfaceData& data) {
     if (data.materials.empty()) data.materials.emplace_back();
 }
 
+template <class Read>
+void readColours(const Read& read, std::span<DrawVertex> vertices) {
+    std::vector<glm::vec4> colours(vertices.size());
+    read("COLOR_0", 4, [&](DrawVertex& v) { return &colours[size_t(&v - vertices.data())].x; });
+    for (size_t i = 0; i < colours.size(); ++i) vertices[i].colour = packColour(colours[i]);
+}
+
 void readPrimitive(Container& file, const json& primitive, size_t materials, const std::string& place,
                    CoarserMesh& into) {
     const json& packed = at(at(primitive, "extensions", place), kDraco, place);
@@ -102,6 +109,7 @@ void readPrimitive(Container& file, const json& primitive, size_t materials, con
     read("NORMAL", 3, [](DrawVertex& v) { return &v.normal.x; });
     read("TEXCOORD_0", 2, [](DrawVertex& v) { return &v.uv.x; });
     read("TEXCOORD_1", 2, [](DrawVertex& v) { return &v.walkUv.x; });
+    if (ids.contains("COLOR_0")) readColours(read, std::span(into.vertices).subspan(base));
     uint64_t material = primitive.contains("material") ? whole(primitive, "material", place, materials - 1) : 0;
     into.ranges.push_back({uint32_t(into.indices.size()), mesh.num_faces() * 3, uint32_t(material)});
     for (uint32_t f = 0; f < mesh.num_faces(); ++f)
@@ -144,6 +152,7 @@ void readDrawing(Container& file, SurfaceData& data) {
     data.vertices = std::move(mesh.vertices);
     data.indices = std::move(mesh.indices);
     data.ranges = std::move(mesh.ranges);
+    markColoured(data.vertices, data.indices, data.ranges, data.materials);
     markBareTriangles(data);
 }
 

@@ -86,6 +86,27 @@ void markBareTriangles(SurfaceData& data) {
     }
 }
 
+VertexColour packColour(glm::vec4 linear) {
+    VertexColour out = kWhite;
+    for (int k = 0; k < 4; ++k)
+        if (linear[k] < 1) out[size_t(k)] = uint16_t(std::max(linear[k], 0.0f) * 65535 + 0.5f);
+    return out;
+}
+
+glm::vec4 unpackColour(const VertexColour& colour) {
+    return glm::vec4(colour[0], colour[1], colour[2], colour[3]) / 65535.0f;
+}
+
+void markColoured(const std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices,
+                  const std::vector<DrawRange>& ranges, std::vector<Material>& materials) {
+    for (const DrawRange& range : ranges)
+        for (uint32_t i = range.firstIndex; i < range.firstIndex + range.indexCount; ++i)
+            if (vertices[indices[i]].colour != kWhite) {
+                materials[range.material].coloured = true;
+                break;
+            }
+}
+
 void addTangents(std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices) {
     std::vector<glm::vec3> u(vertices.size(), glm::vec3(0)), v(vertices.size(), glm::vec3(0));
     for (size_t i = 0; i + 2 < indices.size(); i += 3) {

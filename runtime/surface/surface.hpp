@@ -38,8 +38,15 @@ struct Material {
     float roughness = 1;
     float alphaCutoff = 0;  // 0: opaque
     bool doubleSided = false;
-    bool bare = false;  // nothing grows on it
+    bool bare = false;      // nothing grows on it
+    bool coloured = false;  // vertices that have it have colours of their own
 };
+
+// A vertex's colour, linear; 65535 is 1.
+using VertexColour = std::array<uint16_t, 4>;
+inline constexpr VertexColour kWhite{65535, 65535, 65535, 65535};
+VertexColour packColour(glm::vec4 linear);
+glm::vec4 unpackColour(const VertexColour& colour);
 
 struct DrawVertex {
     glm::vec3 position;  // object space, metres
@@ -47,6 +54,7 @@ struct DrawVertex {
     glm::vec4 tangent;  // w: sign of the bitangent; zero where the model has no UVs
     glm::vec2 uv;       // the materials' UV set
     glm::vec2 walkUv;
+    VertexColour colour = kWhite;  // times the material's
 };
 
 struct DrawRange {
@@ -70,6 +78,7 @@ struct SurfaceData {
     std::vector<Chart> charts;
     std::vector<TrianglePlane> triangles;  // sorted by chart
     glm::vec3 boundsMin{0}, boundsMax{0};
+    glm::dvec3 origin{0};  // metres: the model's file says positions that are larger by this
 
     std::vector<DrawVertex> vertices;  // the decoded mesh, for drawing
     std::vector<uint32_t> indices;
@@ -96,6 +105,10 @@ inline glm::vec3 placeOn(const TrianglePlane& t, glm::vec2 uv) {
 
 // Fills in bareTriangles by ranges and materials.
 void markBareTriangles(SurfaceData& data);
+
+// Fills in Material::coloured by the vertices of a mesh; all materials that its ranges name must be there.
+void markColoured(const std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices,
+                  const std::vector<DrawRange>& ranges, std::vector<Material>& materials);
 
 // Puts tangents on vertices from positions, normals and the materials' UVs; zero where those have no area.
 void addTangents(std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices);

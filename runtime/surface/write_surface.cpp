@@ -3,6 +3,7 @@
 #include <draco/compression/encode.h>
 #include <stb_image_write.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -20,7 +21,7 @@ namespace {
 using nlohmann::ordered_json;
 using namespace surface_file;
 
-constexpr int kPositionBits = 16, kUvBits = 16, kNormalBits = 12;
+constexpr int kPositionBits = 16, kUvBits = 16, kNormalBits = 12, kColourBits = 12;
 constexpr size_t kMaxBinary = 0xFFFF0000u;
 
 std::string hex(uint64_t value) {
@@ -97,7 +98,8 @@ class Writer {
     struct PackedRange {
         uint32_t material = 0, points = 0, faces = 0;
         draco::EncoderBuffer bytes;
-        std::array<uint32_t, 4> unique{};  // ids of position, normal and both UVs
+        std::array<uint32_t, 5> unique{};  // ids of position, normal, both UVs and colour
+        bool coloured = false;
         glm::vec3 low{3e38f}, high{-3e38f};
         const char* fault = nullptr;
     };
@@ -150,6 +152,15 @@ class Writer {
                       addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).uv.x; }),
                       addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).walkUv.x; })};
         for (size_t k = 0; k < 4; ++k) out.unique[k] = mesh.attribute(ids[k])->unique_id();
+        out.coloured = std::ranges::any_of(used, [&](uint32_t v) { return drawn.vertices[v].colour != kWhite; });
+        if (out.coloured) {
+            glm::vec4 colour;
+            const int id = addAttribute(mesh, Kind::COLOR, 4, [&](uint32_t i) {
+                colour = unpackColour(vertex(i).colour);
+                return &colour.x;
+            });
+            out.unique[4] = mesh.attribute(id)->unique_id();
+        }
         out.material = range.material;
         if (!encode(mesh, out.bytes))
             out.fault = "Draco could not encode the mesh";
@@ -168,6 +179,7 @@ class Writer {
                                                      extent_);
             encoder.SetAttributeQuantization(draco::GeometryAttribute::NORMAL, kNormalBits);
             encoder.SetAttributeQuantization(draco::GeometryAttribute::TEX_COORD, kUvBits);
+            encoder.SetAttributeQuantization(draco::GeometryAttribute::COLOR, kColourBits);
             out.Clear();
             if (encoder.EncodeMeshToBuffer(mesh, &out).ok()) return true;
         }
@@ -197,13 +209,13 @@ class Writer {
     void describeRange(const PackedRange& range, ordered_json& primitives) {
         if (range.faces == 0) return;  // triangles without area only
         int view = addView(range.bytes.data(), range.bytes.size());
-        static constexpr const char* kNames[4] = {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1"};
+        static constexpr const char* kNames[5] = {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"};
+        static constexpr const char* kTypes[5] = {"VEC3", "VEC3", "VEC2", "VEC2", "VEC4"};
         ordered_json attributes, packed;
-        for (int k = 0; k < 4; ++k) {
+        for (int k = 0; k < (range.coloured ? 5 : 4); ++k) {
             packed[kNames[k]] = range.unique[size_t(k)];
             attributes[kNames[k]] = root_["accessors"].size();
-            ordered_json accessor = {
-                {"componentType", 5126}, {"count", range.points}, {"type", k < 2 ? "VEC3" : "VEC2"}};
+            ordered_json accessor = {{"componentType", 5126}, {"count", range.points}, {"type", kTypes[k]}};
             if (k == 0) {
                 accessor["min"] = {range.low.x, range.low.y, range.low.z};
                 accessor["max"] = {range.high.x, range.high.y, range.high.z};
@@ -309,6 +321,7 @@ class Writer {
                  {"bounds_min", {data_.boundsMin.x, data_.boundsMin.y, data_.boundsMin.z}},
                  {"bounds_max", {data_.boundsMax.x, data_.boundsMax.y, data_.boundsMax.z}},
                  {"uv_set", 1}};
+        if (data_.origin != glm::dvec3(0)) walk_["origin"] = {data_.origin.x, data_.origin.y, data_.origin.z};
         walk_["crossings"] = writeRecords(data_.crossings, packedCrossings_);
         walk_["charts"] = writeRecords(data_.charts, pack(data_.charts));
         walk_["triangles"] = writeRecords(data_.triangles, packedTriangles_);

@@ -71,6 +71,7 @@ struct MaterialArea {
 // The figures of a bake; see docs/surface_format.md for the meaning of each.
 struct BakeReport {
     std::string source;
+    glm::dvec3 origin{0};
     uint32_t triangles = 0, charts = 0;
     uint64_t innerTexels = 0, linkTexels = 0, openTexels = 0, buriedTexels = 0, bareTexels = 0;
     uint32_t seamCrossings = 0, nearestCrossings = 0, contactCrossings = 0, danglingCrossings = 0, danglingContacts = 0;

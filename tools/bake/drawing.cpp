@@ -59,6 +59,7 @@ void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface)
         glm::vec2 uv = uvs.empty() ? glm::vec2(0) : uvs[v];
         bool finite = std::abs(uv.x) < 1e6f && std::abs(uv.y) < 1e6f;
         d.uv = finite ? uv : glm::vec2(0);
+        if (!model.colours.empty()) d.colour = packColour(model.colours[v]);
         if (corner != kNone) d.walkUv = glm::vec2(mesh.triangles[corner / 3].uv[corner % 3]);
         surface.vertices.push_back(d);
         return uint32_t(surface.vertices.size() - 1);
@@ -75,6 +76,7 @@ void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface)
         surface.ranges.back().indexCount += 3;
     }
     markBareTriangles(surface);
+    markColoured(surface.vertices, surface.indices, surface.ranges, surface.materials);
     addTangents(surface.vertices, surface.indices);
 }
 

@@ -28,7 +28,7 @@ class OwnFolder {
   public:
     OwnFolder() {
         std::error_code ignored;
-        std::string name = (fs::temp_directory_path(ignored) / "espalier-XXXXXX").string();
+        std::string name = (fs::temp_directory_path(ignored) / "espalier-convert-XXXXXX").string();
         if (::mkdtemp(name.data())) path_ = name;
     }
     ~OwnFolder() {

@@ -29,6 +29,8 @@ class ObjReader {
         if (!anyNormals_) model_.normals.clear();
         if (materials_.scalesAny() && anyUvs_) scaleUvs();
         if (!colours_.empty()) takeColours();
+        for (const auto& [vertex, line] : broken_)
+            blemishes_.note("a vertex without three numbers of sane size, named by no face", line);
         blemishes_.tell(model_);
         return Done{};
     }
@@ -185,9 +187,9 @@ class ObjReader {
     std::vector<glm::dvec3> positions_;
     std::vector<glm::vec3> normals_;
     std::vector<glm::vec2> uvs_;
-    std::vector<glm::vec4> colours_;          // of the first positions; empty: none has one
-    std::unordered_map<size_t, int> broken_;  // positions that are none, by their number, and their lines
-    std::vector<glm::dvec3> places_;          // of the model's vertices
+    std::vector<glm::vec4> colours_;  // of the first positions; empty: none has one
+    std::map<size_t, int> broken_;    // positions that are none, by their number, and their lines
+    std::vector<glm::dvec3> places_;  // of the model's vertices
     CornerVertices vertices_;
     Polygons polygons_;
     std::vector<uint32_t> polygon_;

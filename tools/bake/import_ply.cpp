@@ -199,7 +199,7 @@ class PlyReader {
             if (!readRow(element, slots, values)) return cut(element, i);
             for (int k = 0; k < 3; ++k) values[k] = shareOf(values[k], types[k]);
             uint32_t colour = colours == 3 ? packed(values) : 0;
-            Status done = face(i, lists_[size_t(corners)], hasUvs ? &lists_[size_t(uvs)] : nullptr, colour,
+            Status done = face("face", i, lists_[size_t(corners)], hasUvs ? &lists_[size_t(uvs)] : nullptr, colour,
                                materialOf(values[3]));
             if (!done) return done;
         }
@@ -222,15 +222,16 @@ class PlyReader {
         return 0;
     }
 
-    Status face(uint64_t number, std::span<const double> corners, const std::vector<double>* uvs, uint32_t colour,
-                uint32_t material) {
+    // what: the element's name, for messages.
+    Status face(const char* what, uint64_t number, std::span<const double> corners, const std::vector<double>* uvs,
+                uint32_t colour, uint32_t material) {
         polygon_.clear();
         const bool whole = uvs && uvs->size() == corners.size() * 2;
         if (uvs && !whole && !uvs->empty())
             blemishes_.note("a face without two texture coordinates a corner", file_.line());
         for (size_t k = 0; k < corners.size(); ++k) {
             uint32_t vertex = 0;
-            Status done = takeVertex("face", number, corners[k], vertex);
+            Status done = takeVertex(what, number, corners[k], vertex);
             if (!done) return done;
             if (splits_) {
                 Corner corner{vertex, -1, -1, colour};
@@ -261,7 +262,7 @@ class PlyReader {
                 if (a == b || b == c || c == a) continue;  // leads on to another place
                 if ((k - first) % 2 != 0) std::swap(a, b);
                 const double triangle[3] = {a, b, c};
-                Status done = face(i, triangle, nullptr, 0, 0);
+                Status done = face("tristrips", i, triangle, nullptr, 0, 0);
                 if (!done) return done;
             }
         }

@@ -39,16 +39,17 @@ void Blemishes::tell(Model& model) const {
 }
 
 void makeColoursLinear(Model& model) {
-    float most = 0;
+    float most = 0, mostAlpha = 0;
     bool white = true;
     for (glm::vec4& c : model.colours) {
         if (!(glm::dot(c, c) < 1e30f)) c = glm::vec4(kNotGiven);
-        for (int k = 0; k < 4; ++k) most = std::max(most, c[k]);  // what is not a number isn't larger
+        for (int k = 0; k < 3; ++k) most = std::max(most, c[k]);  // what is not a number isn't larger
+        mostAlpha = std::max(mostAlpha, c.a);
     }
     // Some programs write numbers up to 255, most of them up to 1.
-    const float scale = most > 1.5f ? 1 / 255.0f : 1;
+    const float scale = most > 1.5f ? 1 / 255.0f : 1, alphaScale = mostAlpha > 1.5f ? 1 / 255.0f : 1;
     for (glm::vec4& c : model.colours) {
-        c = c == c ? glm::clamp(c * scale, 0.0f, 1.0f) : glm::vec4(1);
+        c = c == c ? glm::clamp(c * glm::vec4(glm::vec3(scale), alphaScale), 0.0f, 1.0f) : glm::vec4(1);
         for (int k = 0; k < 3; ++k) c[k] = linearOfSrgb(c[k]);
         white = white && c == glm::vec4(1);
     }

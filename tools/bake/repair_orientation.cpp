@@ -95,6 +95,7 @@ Model turned(const Model& model, const std::vector<uint32_t>& triangles) {
             out.positions.push_back(glm::vec3(out.positions[from]));
             out.normals.push_back(-glm::vec3(out.normals[from]));
             if (!out.uvs.empty()) out.uvs.push_back(glm::vec2(out.uvs[from]));
+            if (!out.colours.empty()) out.colours.push_back(glm::vec4(out.colours[from]));
             if (!out.materialUvs.empty()) out.materialUvs.push_back(glm::vec2(out.materialUvs[from]));
         }
     }

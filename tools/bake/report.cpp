@@ -37,6 +37,7 @@ std::string BakeReport::json() const {
     using nlohmann::ordered_json;
     ordered_json j;
     j["source"] = source;
+    j["origin"] = {origin.x, origin.y, origin.z};
     j["triangles"] = triangles;
     j["charts"] = charts;
     j["made_charts"] = madeCharts;
