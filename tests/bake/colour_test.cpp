@@ -2,13 +2,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <fstream>
-#include <nlohmann/json.hpp>
+#include <span>
 
-#include "runtime/core/file.hpp"
-#include "tests/bake/baking.hpp"
+#include "runtime/core/glb.hpp"
+#include "tests/bake/model_folder.hpp"
 #include "tests/bake/small_models.hpp"
-#include "tests/support/scratch_folder.hpp"
 
 using namespace espalier;
 using namespace espalier::test;
@@ -36,7 +34,7 @@ bool close(glm::vec4 a, glm::vec4 b) {
 }  // namespace
 
 TEST_CASE("vertex colours are kept in the file as COLOR_0, by all of its meshes") {
-    ScratchFolder folder;
+    ModelFolder folder;
     const Baked baked = bakeOrFail(twoColours(16), 64);
     CHECK(baked.surface.materials[0].coloured);
     REQUIRE(!baked.surface.coarser.empty());
@@ -61,7 +59,7 @@ TEST_CASE("vertex colours are kept in the file as COLOR_0, by all of its meshes"
 }
 
 TEST_CASE("a model without colours has none in its file") {
-    ScratchFolder folder;
+    ModelFolder folder;
     Model model = cube(4);
     const Baked plain = bakeOrFail(model, 64);
     REQUIRE(writeSurface(plain.surface, folder.file("plain.glb")));
@@ -91,4 +89,50 @@ TEST_CASE("a simpler mesh counts the colours that it loses as error") {
     REQUIRE(!plain.coarser.empty());
     CHECK(plain.coarser[0].error < 1e-4f);
     for (const CoarserMesh& mesh : coloured.coarser) CHECK(mesh.error > 0.01f);
+}
+
+TEST_CASE("glTF: COLOR_0 of any kind is read as shares of one, linear") {
+    ModelFolder folder;
+    struct Case {
+        int componentType;
+        bool normalized;
+        const char* type;
+        std::string bytes;  // of one vertex
+        glm::vec4 colour;
+    };
+    const auto floats = [](std::vector<float> values) {
+        return std::string(reinterpret_cast<const char*>(values.data()), values.size() * 4);
+    };
+    for (const Case& c : {Case{5126, false, "VEC3", floats({0.25f, 0.5f, 1}), {0.25f, 0.5f, 1, 1}},
+                          Case{5126, false, "VEC4", floats({0.25f, 0.5f, 1, 0.75f}), {0.25f, 0.5f, 1, 0.75f}},
+                          Case{5121, true, "VEC4", "\xFF\x33\x33\x66", {1, 0.2f, 0.2f, 0.4f}},
+                          Case{5123, true, "VEC4", "\xFF\xFF\x33\x33\x33\x33\x66\x66", {1, 0.2f, 0.2f, 0.4f}},
+                          Case{5126, false, "VEC3", floats({NAN, 0, 0}), {-1, -1, -1, -1}},
+                          Case{5126, false, "VEC3", floats({1, 1, 1}), {-1, -1, -1, -1}}}) {
+        CAPTURE(c.type);
+        std::string binary = floats({0, 0, 0, 1, 0, 0, 1, 1, 0});
+        for (int i = 0; i < 3; ++i) binary += c.bytes;
+        const std::string text =
+            R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},{"mesh":1}],)"
+            R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},)"
+            R"({"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1}}]}],"buffers":[{"byteLength":)" +
+            std::to_string(binary.size()) +
+            R"(}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,)"
+            R"("byteLength":)" +
+            std::to_string(binary.size() - 36) +
+            R"(}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},{"bufferView":1,"count":3,)"
+            R"("componentType":)" +
+            std::to_string(c.componentType) + R"(,"normalized":)" + (c.normalized ? "true" : "false") + R"(,"type":")" +
+            c.type + R"("}]})";
+        REQUIRE(writeGlb(folder.file("a.glb"), text, std::as_bytes(std::span(binary))));
+        auto model = importModel(folder.file("a.glb"));
+        if (!model) FAIL(model.failure().text());
+        if (c.colour.r < 0) {
+            CHECK(model->colours.empty());
+            continue;
+        }
+        REQUIRE(model->colours.size() == 6);
+        CHECK(model->colours[0] == glm::vec4(1));
+        for (int k = 0; k < 4; ++k) CHECK(model->colours[5][k] == doctest::Approx(c.colour[k]));
+    }
 }

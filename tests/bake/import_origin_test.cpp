@@ -165,3 +165,23 @@ TEST_CASE("a surface's file and report keep the origin; without one nothing is w
         CHECK((text->find("\"origin\"") == std::string::npos) == (place == glm::dvec3(0)));
     }
 }
+
+TEST_CASE("glTF: nodes far away are composed in double precision") {
+    ModelFolder folder;
+    // A square of 7 cm, three of them side by side below two nodes; their transforms cancel out but for a map's place.
+    const std::string text = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+        "nodes":[{"translation":[600000,519.25,-5334760],"children":[1]},
+                 {"translation":[91603.5,0,0],"scale":[0.07,0.07,0.07],"children":[2,3,4]},
+                 {"mesh":0},{"mesh":0,"translation":[1,0,0]},{"mesh":0,"translation":[2,0,0]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+        "buffers":[{"byteLength":60,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAACAPwAAAAAAAIC/AAAAAAAAAAAAAIC/AAABAAIAAAACAAMA"}],
+        "bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},
+                     {"bufferView":1,"componentType":5123,"count":6,"type":"SCALAR"}]})";
+    const FarModel far = readFar(folder, "a.gltf", text);
+    CHECK(isNear(far.low, {691'603.5, 519.25, -5'334'760.07}));
+    CHECK(isNear(far.high, {691'603.71, 519.25, -5'334'760}));
+    const Baked baked = bakeOrFail(far.model, 64);
+    CHECK(baked.report.walkableArea == doctest::Approx(3 * 0.0049).epsilon(1e-5));
+    CHECK(baked.report.charts == 1);  // the squares still touch
+}

@@ -38,6 +38,11 @@ TEST_CASE("reported: models in coordinates of a map") {
         CHECK(std::max({off.x, off.y, off.z}) < 1e-3f);
         CHECK(bakedOf(*model).report.triangles == 36);
     }
+    if (const auto model = reported("gltf_house_utm.glb")) {
+        const BakeReport report = bakedOf(*model).report;
+        CHECK(report.triangles == 20);
+        CHECK(report.walkableArea == doctest::Approx(126.72).epsilon(1e-5));
+    }
     for (const char* name : {"obj_stairs_local.obj", "obj_stairs_rd.obj", "obj_stairs_utm.obj"})
         if (const auto model = reported(name))
             CHECK(bakedOf(*model).report.walkableArea == doctest::Approx(16.584).epsilon(6e-4));
@@ -97,6 +102,7 @@ TEST_CASE("reported: names of materials, libraries and pictures") {
 }
 
 TEST_CASE("reported: colours of vertices") {
+    if (const auto model = reported("gltf_colour_float.glb")) CHECK(bakedOf(*model).surface.materials.at(0).coloured);
     if (const auto model = reported("ply_colours.ply"))
         for (const DrawVertex& v : bakedOf(*model).surface.vertices) {
             const glm::vec4 colour = unpackColour(v.colour);

@@ -90,13 +90,16 @@ Result<std::vector<uint32_t>> readIndices(const Document& document, int accessor
 struct Primitive {
     std::vector<float> positions, normals;  // three a vertex; normals may be empty
     std::vector<float> walkUvs, drawnUvs;   // two a vertex, of the sets asked for; may be empty
+    std::vector<float> colours;             // three or four a vertex (COLOR_0); may be empty
     std::vector<uint32_t> indices;          // three a triangle, all below the vertex count
 };
 
 // Reads a primitive of triangles, through Draco where it says so, with two of its UV sets (TEXCOORD_n).
 struct UvSets {
     int walk = 0, drawn = 0;
+    int colour = 0;  // how many components COLOR_0 has; 0: it isn't read
 };
+int colourComponents(const Document& document, const tinygltf::Primitive& primitive);
 Result<Primitive> readPrimitive(const Document& document, const tinygltf::Primitive& primitive, UvSets sets,
                                 const std::string& place);
 

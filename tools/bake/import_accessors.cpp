@@ -2,7 +2,6 @@
 // Every index is compared with what it indexes before it is used.
 #include <draco/compression/decode.h>
 
-#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -172,12 +171,14 @@ struct Wanted {
     int components;
     std::vector<float>* into;
 };
-std::array<Wanted, 4> wantedOf(Primitive& out, UvSets sets) {
+std::vector<Wanted> wantedOf(Primitive& out, UvSets sets) {
     auto uvs = [](int set) { return "TEXCOORD_" + std::to_string(set); };
-    return {{{"POSITION", 3, &out.positions},
-             {"NORMAL", 3, &out.normals},
-             {uvs(sets.walk), 2, &out.walkUvs},
-             {uvs(sets.drawn), 2, &out.drawnUvs}}};
+    std::vector<Wanted> all{{"POSITION", 3, &out.positions},
+                            {"NORMAL", 3, &out.normals},
+                            {uvs(sets.walk), 2, &out.walkUvs},
+                            {uvs(sets.drawn), 2, &out.drawnUvs}};
+    if (sets.colour > 0) all.push_back({"COLOR_0", sets.colour, &out.colours});
+    return all;
 }
 
 Result<Primitive> readDraco(const Document& document, const tinygltf::Value& extension, UvSets sets,
@@ -229,6 +230,13 @@ Result<std::vector<float>> readFloats(const Document& document, int accessor, in
         if (!sparse) return std::move(sparse.failure());
     }
     return out;
+}
+
+int colourComponents(const Document& document, const tinygltf::Primitive& primitive) {
+    auto it = primitive.attributes.find("COLOR_0");
+    if (it == primitive.attributes.end() || size_t(it->second) >= document.gltf.accessors.size()) return 0;
+    const int type = document.gltf.accessors[size_t(it->second)].type;
+    return type == TINYGLTF_TYPE_VEC3 ? 3 : type == TINYGLTF_TYPE_VEC4 ? 4 : 0;
 }
 
 Result<std::vector<uint32_t>> readIndices(const Document& document, int accessor) {

@@ -76,6 +76,8 @@ class Importer {
         }
         tell();
         if (model_.indices.empty()) return Failure(document_.path, "the file holds no triangles" + whyNone());
+        settle(places_, model_.indices, options_.origin, model_);
+        model_.colours.resize(anyColours_ ? places_.size() : 0, glm::vec4(1));
         if (!anyUvs_) model_.uvs.clear();
         if (!anyUvs_) model_.materialUvs.clear();
         if (!allNormals_) model_.normals.clear();
@@ -238,7 +240,9 @@ class Importer {
         auto known = kept_.find(id);
         Primitive once;
         if (known == kept_.end()) {
-            auto read = readPrimitive(document_, from, {options_.uvSet, materialUvs_[material].texCoord}, where);
+            auto read = readPrimitive(
+                document_, from, {options_.uvSet, materialUvs_[material].texCoord, colourComponents(document_, from)},
+                where);
             if (!read) return std::move(read.failure());
             if (uses_[size_t(id.first)] > 1)
                 known = kept_.emplace(id, std::move(*read)).first;
@@ -249,9 +253,9 @@ class Importer {
     }
 
     Status append(const Primitive& from, const glm::dmat4& world, uint32_t material, const std::string& where) {
-        size_t count = from.positions.size() / 3, first = model_.positions.size();
+        size_t count = from.positions.size() / 3, first = places_.size();
         if (first + count > kMaxVertices) return Failure(document_.path, "more than 67 million vertices");
-        if (!document_.intake->take(count * 40 + from.indices.size() * 6))
+        if (!document_.intake->take(count * (from.colours.empty() ? 64 : 80) + from.indices.size() * 6))
             return Failure(document_.path, where +
                                                ": placing it so often takes absurdly much for a file of its size; "
                                                "bake it once and place the surface");
@@ -276,9 +280,10 @@ class Importer {
         const auto& walk = from.walkUvs;
         const auto& drawn = from.drawnUvs.empty() ? walk : from.drawnUvs;
         size_t count = from.positions.size() / 3;
+        appendColours(from);
         for (size_t i = 0; i < count; ++i) {
             glm::dvec3 p(from.positions[i * 3], from.positions[i * 3 + 1], from.positions[i * 3 + 2]);
-            model_.positions.push_back(glm::vec3(world * glm::dvec4(p, 1)));
+            places_.push_back(glm::dvec3(world * glm::dvec4(p, 1)));
             glm::vec3 n(0);
             if (!from.normals.empty()) {
                 glm::dvec3 m =
@@ -297,15 +302,30 @@ class Importer {
         if (from.normals.empty()) allNormals_ = false;
     }
 
+    // Vertices of primitives without colours are white, as are those whose colours are not numbers.
+    void appendColours(const Primitive& from) {
+        if (from.colours.empty()) return;
+        const size_t count = from.positions.size() / 3, components = from.colours.size() / count;
+        model_.colours.resize(places_.size(), glm::vec4(1));
+        for (size_t i = 0; i < count; ++i) {
+            glm::vec4 colour(1);
+            for (size_t k = 0; k < components; ++k) colour[int(k)] = from.colours[i * components + k];
+            if (!(glm::dot(colour, colour) < 1e30f)) colour = glm::vec4(1);
+            model_.colours.push_back(colour);
+            anyColours_ = anyColours_ || colour != glm::vec4(1);
+        }
+    }
+
     const Document& document_;
     const ImportOptions& options_;
     Model& model_;
+    std::vector<glm::dvec3> places_;  // of vertices
     std::vector<MaterialUv> materialUvs_;
     std::vector<bool> visited_;
     std::vector<size_t> uses_, placed_;  // by mesh: nodes that name it; places it was put
     std::map<PrimitiveId, Primitive> kept_;
     size_t skipped_ = 0, placeless_ = 0;
-    bool anyUvs_ = false, allNormals_ = true, skinned_ = false;
+    bool anyUvs_ = false, anyColours_ = false, allNormals_ = true, skinned_ = false;
 };
 
 }  // namespace
