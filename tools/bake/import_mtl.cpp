@@ -10,6 +10,9 @@
 namespace espalier::import {
 namespace {
 
+constexpr size_t kMostReadings = 8;  // of a name
+constexpr size_t kMostPictures = 4096;
+
 std::string smallLetters(std::string_view text) {
     std::string out(text);
     for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
@@ -29,7 +32,9 @@ std::vector<std::string> readingsOf(std::string_view text) {
         if (!reading.empty() && std::ranges::find(out, reading) == out.end()) out.emplace_back(reading);
     };
     add(text);
-    for (size_t at = text.rfind('#'); at != text.npos && at > 0; at = text.rfind('#', at - 1))
+    // Few comments hold several.
+    for (size_t at = text.rfind('#'); at != text.npos && at > 0 && out.size() < kMostReadings;
+         at = text.rfind('#', at - 1))
         if (isBlank(text[at - 1])) add(text.substr(0, at));
     return out;
 }
@@ -278,10 +283,14 @@ std::string MaterialLibrary::placeOf(const std::string& folder, const std::vecto
 int MaterialLibrary::picture(const std::string& folder, const std::vector<std::string>& names,
                              const std::function<void(std::string)>& warn) {
     if (names.empty()) return -1;
+    const auto [known, isNew] = pictures_.try_emplace(folder + names.front(), -1);
+    int& index = known->second;
+    if (!isNew) return index;
+    if (pictures_.size() > kMostPictures) {
+        if (pictures_.size() == kMostPictures + 1) warn("more than 4,096 pictures: the others are left out");
+        return index;
+    }
     const std::string file = placeOf(folder, names);
-    auto known = pictures_.find(file);
-    if (known != pictures_.end()) return known->second;
-    int& index = pictures_[file] = -1;
     auto bytes = intake_.readBeside(path_, file);
     auto decoded = bytes ? readPicture(std::move(*bytes), file, intake_) : Result<Picture>(bytes.failure());
     if (!decoded) {

@@ -48,8 +48,8 @@ class MaterialLibrary {
     Intake& intake_;
     Model& model_;
     std::map<std::string, uint32_t, std::less<>> names_;
-    std::vector<UvScaling> scalings_;  // by material
-    std::map<std::string, int> pictures_;
+    std::vector<UvScaling> scalings_;      // by material
+    std::map<std::string, int> pictures_;  // by the name that is said
     std::set<std::string> unknown_;
 };
 

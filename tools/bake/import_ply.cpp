@@ -14,19 +14,18 @@ namespace {
 
 // A vertex's properties that are read, by their place in a row: position, normal, UV, colour.
 constexpr size_t kNormal = 3, kUv = 6, kColour = 8, kAlpha = 11, kSlots = 12;
-using Names = std::initializer_list<std::string_view>;
-const std::array<Names, kSlots> kVertexNames = {Names{"x"},
-                                                {"y"},
-                                                {"z"},
-                                                {"nx"},
-                                                {"ny"},
-                                                {"nz"},
-                                                {"u", "s", "texture_u"},
-                                                {"v", "t", "texture_v"},
-                                                {"red", "diffuse_red", "r"},
-                                                {"green", "diffuse_green", "g"},
-                                                {"blue", "diffuse_blue", "b"},
-                                                {"alpha", "diffuse_alpha", "a"}};
+constexpr std::array<PlyNames, kSlots> kVertexNames = {{{"x"},
+                                                        {"y"},
+                                                        {"z"},
+                                                        {"nx"},
+                                                        {"ny"},
+                                                        {"nz"},
+                                                        {"u", "s", "texture_u"},
+                                                        {"v", "t", "texture_v"},
+                                                        {"red", "diffuse_red", "r"},
+                                                        {"green", "diffuse_green", "g"},
+                                                        {"blue", "diffuse_blue", "b"},
+                                                        {"alpha", "diffuse_alpha", "a"}}};
 
 // Whole numbers of 8 and 16 bits are shares of the most that they can be.
 double shareOf(double value, PlyType type) {

@@ -2,7 +2,6 @@
 #include "tools/bake/import_ply_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "tools/bake/import_text.hpp"
@@ -57,10 +56,10 @@ double decode(const uint8_t* bytes, PlyType type) {
 
 }  // namespace
 
-int PlyElement::find(std::initializer_list<std::string_view> names) const {
+int PlyElement::find(const PlyNames& names) const {
     for (std::string_view wanted : names)
         for (size_t i = 0; i < properties.size(); ++i)
-            if (properties[i].name == wanted) return int(i);
+            if (!wanted.empty() && properties[i].name == wanted) return int(i);
     return -1;
 }
 

@@ -2,11 +2,16 @@
 
 // A PLY file's header, and its body as one number after the other.
 
+#include <array>
+
 #include "tools/bake/import.hpp"
 
 namespace espalier::import {
 
 enum class PlyType : uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+// By which programs call one thing; those that are empty are none.
+using PlyNames = std::array<std::string_view, 3>;
 
 struct PlyProperty {
     std::string name;
@@ -19,7 +24,7 @@ struct PlyElement {
     uint64_t count = 0;
     std::vector<PlyProperty> properties;
     // Where the property of one of these names stands; -1: there is none.
-    int find(std::initializer_list<std::string_view> names) const;
+    int find(const PlyNames& names) const;
 };
 
 class PlyFile {
