@@ -11,6 +11,7 @@
 #include "runtime/core/hash.hpp"
 #include "runtime/core/jobs.hpp"
 #include "runtime/surface/codec.hpp"
+#include "runtime/surface/material_json.hpp"
 #include "runtime/surface/surface.hpp"
 #include "runtime/surface/surface_file.hpp"
 
@@ -97,7 +98,8 @@ class Writer {
     struct PackedRange {
         uint32_t material = 0, points = 0, faces = 0;
         draco::EncoderBuffer bytes;
-        std::array<uint32_t, 4> unique{};  // ids of position, normal and both UVs
+        std::array<uint32_t, 5> unique{};  // ids of position, normal and UVs
+        size_t attributes = 4;
         glm::vec3 low{3e38f}, high{-3e38f};
         const char* fault = nullptr;
     };
@@ -145,11 +147,14 @@ class Writer {
         }
         auto vertex = [&](uint32_t i) -> const DrawVertex& { return drawn.vertices[used[i]]; };
         using Kind = draco::GeometryAttribute;
-        int ids[4] = {addAttribute(mesh, Kind::POSITION, 3, [&](uint32_t i) { return &vertex(i).position.x; }),
-                      addAttribute(mesh, Kind::NORMAL, 3, [&](uint32_t i) { return &vertex(i).normal.x; }),
-                      addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).uv.x; }),
-                      addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).walkUv.x; })};
-        for (size_t k = 0; k < 4; ++k) out.unique[k] = mesh.attribute(ids[k])->unique_id();
+        std::vector ids{addAttribute(mesh, Kind::POSITION, 3, [&](uint32_t i) { return &vertex(i).position.x; }),
+                        addAttribute(mesh, Kind::NORMAL, 3, [&](uint32_t i) { return &vertex(i).normal.x; }),
+                        addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).uv.x; }),
+                        addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).walkUv.x; })};
+        if (range.material < data_.materials.size() && usesOtherUv(data_.materials[range.material]))
+            ids.push_back(addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).otherUv.x; }));
+        out.attributes = ids.size();
+        for (size_t k = 0; k < ids.size(); ++k) out.unique[k] = mesh.attribute(ids[k])->unique_id();
         out.material = range.material;
         if (!encode(mesh, out.bytes))
             out.fault = "Draco could not encode the mesh";
@@ -197,10 +202,10 @@ class Writer {
     void describeRange(const PackedRange& range, ordered_json& primitives) {
         if (range.faces == 0) return;  // triangles without area only
         int view = addView(range.bytes.data(), range.bytes.size());
-        static constexpr const char* kNames[4] = {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1"};
+        static constexpr const char* kNames[5] = {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1", "TEXCOORD_2"};
         ordered_json attributes, packed;
-        for (int k = 0; k < 4; ++k) {
-            packed[kNames[k]] = range.unique[size_t(k)];
+        for (size_t k = 0; k < range.attributes; ++k) {
+            packed[kNames[k]] = range.unique[k];
             attributes[kNames[k]] = root_["accessors"].size();
             ordered_json accessor = {
                 {"componentType", 5126}, {"count", range.points}, {"type", k < 2 ? "VEC3" : "VEC2"}};
@@ -251,20 +256,9 @@ class Writer {
 
     void writeMaterials() {
         ordered_json materials = ordered_json::array();
-        for (const Material& m : data_.materials) {
-            ordered_json pbr = {{"baseColorFactor", {m.baseColor.r, m.baseColor.g, m.baseColor.b, m.baseColor.a}},
-                                {"metallicFactor", 0},
-                                {"roughnessFactor", m.roughness}};
-            if (m.baseColorImage >= 0) pbr["baseColorTexture"] = {{"index", m.baseColorImage}};
-            ordered_json material = {{"pbrMetallicRoughness", pbr}, {"doubleSided", m.doubleSided}};
-            if (m.normalImage >= 0) material["normalTexture"] = {{"index", m.normalImage}, {"scale", m.normalScale}};
-            if (m.alphaCutoff > 0) {
-                material["alphaMode"] = "MASK";
-                material["alphaCutoff"] = m.alphaCutoff;
-            }
-            if (m.bare) material["extras"] = {{"bare", true}};
-            materials.push_back(std::move(material));
-        }
+        std::vector<std::string> extensions;
+        for (const Material& m : data_.materials) materials.push_back(materialJson(m, extensions));
+        for (const std::string& name : extensions) root_["extensionsUsed"].push_back(name);
         if (!materials.empty()) root_["materials"] = std::move(materials);
         if (data_.images.empty()) return;
         root_["samplers"] = {{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 10497}, {"wrapT", 10497}}};

@@ -19,6 +19,7 @@ struct Model {
     std::vector<glm::vec2> uvs;              // the UV set that the walk's charts come from, same length, or empty;
                                              // NaN: this vertex has none
     std::vector<glm::vec2> materialUvs;      // same length, or empty: uvs
+    std::vector<glm::vec2> otherUvs;         // same length, or empty: no material has textures in two UV sets
     std::vector<uint32_t> indices;           // three a triangle
     std::vector<uint32_t> triangleMaterial;  // one a triangle, or empty: material 0
     std::vector<Material> materials;
