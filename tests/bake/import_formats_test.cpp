@@ -16,7 +16,7 @@ using namespace espalier::test;
 
 namespace {
 
-bool says(const std::string& text, const std::string& part) {
+bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
@@ -153,10 +153,10 @@ TEST_CASE("OBJ: materials with colours, roughness and pictures; what is missing 
     CHECK(!model->materials[2].bare);
     CHECK(model->materials[2].roughness == 1);
     REQUIRE(model->warnings.size() == 3);
-    CHECK(says(toString(model->warnings[0]), "two words.mtl:7"));
-    CHECK(says(toString(model->warnings[0]), "nowhere at all.png"));
-    CHECK(says(toString(model->warnings[1]), "gone.mtl"));
-    CHECK(says(toString(model->warnings[2]), "m.obj:11"));
+    CHECK(contains(toString(model->warnings[0]), "two words.mtl:7"));
+    CHECK(contains(toString(model->warnings[0]), "nowhere at all.png"));
+    CHECK(contains(toString(model->warnings[1]), "gone.mtl"));
+    CHECK(contains(toString(model->warnings[2]), "m.obj:11"));
 }
 
 TEST_CASE("OBJ: mistakes name the file and the line") {
@@ -178,7 +178,7 @@ TEST_CASE("OBJ: mistakes name the file and the line") {
         CAPTURE(text);
         std::string said = messageOf(importText(folder, "bad.obj", text));
         CAPTURE(said);
-        CHECK(says(said, message));
+        CHECK(contains(said, message));
     }
 }
 
@@ -211,7 +211,7 @@ TEST_CASE("PLY: text, both byte orders and gzip hold the same model") {
         REQUIRE(whole);
         whole->resize(whole->size() - 6);
         REQUIRE(writeFile(folder.file("cut" + name), *whole));
-        CHECK(says(messageOf(importModel(folder.file("cut" + name))), "cut" + name));
+        CHECK(contains(messageOf(importModel(folder.file("cut" + name))), "cut" + name));
     }
 }
 
@@ -242,12 +242,12 @@ TEST_CASE("PLY: mistakes name the file and the place") {
         CAPTURE(text);
         std::string said = messageOf(importText(folder, "bad.ply", text));
         CAPTURE(said);
-        CHECK(says(said, "bad.ply"));
-        CHECK(says(said, message));
+        CHECK(contains(said, "bad.ply"));
+        CHECK(contains(said, message));
     }
     std::string binary = binaryPly(false);
     binary[binary.size() - 1] = '\x7F';
-    CHECK(says(messageOf(importText(folder, "bad.ply", binary)), "byte " + std::to_string(binary.size())));
+    CHECK(contains(messageOf(importText(folder, "bad.ply", binary)), "byte " + std::to_string(binary.size())));
 }
 
 TEST_CASE("a file that unpacks to absurdly much is refused before it does") {
@@ -256,7 +256,7 @@ TEST_CASE("a file that unpacks to absurdly much is refused before it does") {
     gzFile packed = gzopen(folder.file("bomb.ply.gz").c_str(), "wb9");
     for (int i = 0; i < 40; ++i) REQUIRE(gzwrite(packed, zeros.data(), unsigned(zeros.size())) > 0);
     REQUIRE(gzclose(packed) == Z_OK);
-    CHECK(says(messageOf(importModel(folder.file("bomb.ply.gz"))), "bomb.ply.gz"));
-    CHECK(says(messageOf(importModel("/dev/zero")), "no ordinary file"));
-    CHECK(says(messageOf(importText(folder, "what.txt", "hello")), "neither glTF"));
+    CHECK(contains(messageOf(importModel(folder.file("bomb.ply.gz"))), "bomb.ply.gz"));
+    CHECK(contains(messageOf(importModel("/dev/zero")), "no ordinary file"));
+    CHECK(contains(messageOf(importText(folder, "what.txt", "hello")), "neither glTF"));
 }

@@ -175,7 +175,19 @@ TEST_CASE("MTL: transparency, roughness, normal maps and cut-outs") {
         CHECK(picture.encoded.empty());
     }
     CHECK(material("map_Kd wall.png\nmap_d wall.png\n").images.size() == 1);
-    CHECK(warns(material("map_Kd -s 2 2 wall.png\nnorm normals.png\n"), "-s and -o differ"));
+    CHECK(warns(material("map_Kd -s 2 2 wall.png\nmap_d hole.png\n"), "-s and -o differ"));
+    // Pictures that are laid on otherwise are so relative to the colours.
+    const Model scaled =
+        material("norm normals.png\nmap_Kd -s 2 2 -o 0.5 0 wall.png\nKe 0 0 0\nmap_Ke -s 2 2 -o 0.5 0 wall.png\n");
+    const Material& m = scaled.materials[1];
+    CHECK(m.emissive == glm::vec3(1));
+    CHECK(m.emissiveMap == TextureMap());
+    for (size_t v = 0; v < scaled.uvs.size(); ++v) {
+        const auto rows = rowsOf(m.normalMap);
+        const glm::vec3 drawn(scaled.materialUvs[v], 1);
+        CHECK(glm::vec2(glm::dot(rows[0], drawn), glm::dot(rows[1], drawn)) == scaled.uvs[v]);
+    }
+    CHECK(material("Ke 1 0.5 0\n").materials[1].emissive == glm::vec3(1, 0.5f, 0));
 }
 
 TEST_CASE("OBJ: libraries and pictures lie in folders of their own") {

@@ -21,6 +21,7 @@ struct Model {
                                              // NaN: this vertex has none
     std::vector<glm::vec2> materialUvs;      // same length, or empty: uvs
     std::vector<glm::vec4> colours;          // linear, times the materials'; same length, or empty: white
+    std::vector<glm::vec2> otherUvs;         // same length, or empty: no material has textures in two UV sets
     std::vector<uint32_t> indices;           // three a triangle
     std::vector<uint32_t> triangleMaterial;  // one a triangle, or empty: material 0
     std::vector<Material> materials;

@@ -96,7 +96,13 @@ void Intake::note(const std::string& path) {
 
 Result<Picture> readPicture(std::vector<uint8_t> bytes, const std::string& file, Intake& intake) {
     // Twice four bytes a texel, while it is decoded.
-    auto decoded = decodePicture(std::as_bytes(std::span(bytes)), file, intake.left() / 8);
+    const uint64_t most = intake.left() / 8;
+    if (isWebp(bytes)) {
+        auto decoded = decodeWebp(bytes, file, most);
+        if (decoded) intake.take(decoded->rgba.size());
+        return decoded;
+    }
+    auto decoded = decodePicture(std::as_bytes(std::span(bytes)), file, most);
     if (!decoded) return decoded;
     intake.take(decoded->rgba.size());
     decoded->encoded = std::move(bytes);

@@ -6,7 +6,7 @@
 
 namespace espalier::import {
 
-enum class Reader : uint8_t {
+enum class ReadBy : uint8_t {
     none,    // not a model, or of a kind that nothing here reads
     stl,     // importStl
     assimp,  // by another program, see import_foreign.hpp
@@ -14,7 +14,7 @@ enum class Reader : uint8_t {
 
 struct FileKind {
     const char* name;  // "FBX"
-    Reader reader;
+    ReadBy reader;
     const char* ending;  // by which other programs know it: ".fbx"
     const char* advice;  // what to do instead, where there is no reader
 };

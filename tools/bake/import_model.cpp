@@ -44,8 +44,8 @@ Status importAny(const std::string& path, Bytes file, const ImportOptions& optio
     const auto as = [&](const std::string& ending) { return importAs(ending, path, file, options, intake, model); };
     if (isPly(file)) return as(".ply");
     if (const FileKind* kind = kindOf(file)) {
-        if (kind->reader == Reader::stl) return as(".stl");
-        if (kind->reader == Reader::assimp) return importForeign(path, file, *kind, options, intake, model);
+        if (kind->reader == ReadBy::stl) return as(".stl");
+        if (kind->reader == ReadBy::assimp) return importForeign(path, file, *kind, options, intake, model);
         return Failure(path, std::string("the file is ") + kind->name + ": " + kind->advice);
     }
     if (startsWith(file, "glTF")) return as(".glb");

@@ -12,6 +12,7 @@ namespace {
 
 constexpr size_t kMostReadings = 8;  // of a name
 constexpr size_t kMostPictures = 4096;
+constexpr double kMostEmission = 1000;  // of a light's colour
 
 std::string smallLetters(std::string_view text) {
     std::string out(text);
@@ -57,6 +58,16 @@ constexpr TextureOption kTextureOptions[] = {{"-s", 3, true},       {"-o", 3, tr
                                              {"-texres", 1, false}, {"-clamp", 1, false},     {"-blendu", 1, false},
                                              {"-blendv", 1, false}, {"-imfchan", 1, false},   {"-cc", 1, false},
                                              {"-type", 1, false},   {"-colorspace", 1, false}};
+
+// From UVs that are scaled in one way, v downwards, to those that are scaled in another.
+TextureMap relativeTo(const UvScaling& drawn, const UvScaling& wanted) {
+    if (drawn == wanted || drawn.scale.x == 0 || drawn.scale.y == 0) return {};
+    TextureMap map;
+    map.scale = wanted.scale / drawn.scale;
+    map.offset = wanted.offset - drawn.offset * map.scale;
+    map.offset.y = 1 - map.scale.y - map.offset.y;
+    return map;
+}
 
 TextureStatement readTexture(std::string_view line) {
     TextureStatement out;
@@ -108,10 +119,10 @@ class MaterialLibrary::File {
     struct Stated {
         bool dissolved = false;   // `d`
         double transparency = 0;  // `Tr`
+        bool normals = false;     // by `norm`, not by `bump`
         int cutOut = -1;          // the picture of map_d
         int cutOutLine = 0;
-        std::optional<UvScaling> scaling;  // of its first picture
-        bool normals = false;              // by `norm`
+        std::optional<UvScaling> ofColour, ofCutOut, ofNormals, ofEmission;
     };
 
     void warn(int line, std::string message) {
@@ -153,8 +164,14 @@ class MaterialLibrary::File {
         if (key == "pr" && one) material().roughness = float(value[0]);
         // The lobe of Blinn and Phong with this exponent is about as wide as that of this roughness.
         if (key == "ns" && one && value[0] >= 0) material().roughness = float(std::sqrt(2 / (value[0] + 2)));
-        if (key == "map_kd") material().baseColorImage = picture(line, number).index;
-        if (key == "map_d") stated_.cutOut = picture(line, number).index, stated_.cutOutLine = number;
+        if (key == "ke" && (count == 1 || count == 3))
+            for (int i = 0; i < 3; ++i) {
+                const double channel = value[count == 1 ? 0 : i];
+                material().emissive[i] = float(std::clamp(std::isfinite(channel) ? channel : 0, 0.0, kMostEmission));
+            }
+        if (key == "map_kd") material().baseColorImage = picture(line, number, stated_.ofColour).index;
+        if (key == "map_ke") material().emissiveImage = picture(line, number, stated_.ofEmission).index;
+        if (key == "map_d") stated_.cutOut = picture(line, number, stated_.ofCutOut).index, stated_.cutOutLine = number;
         if (key == "norm" || key == "map_norm" || key == "map_kn") readNormals(line, number);
         if (key == "bump" || key == "map_bump") readBump(line, number);
     }
@@ -163,11 +180,9 @@ class MaterialLibrary::File {
         int index = -1;
         float bump = 1;
     };
-    Found picture(std::string_view line, int number) {
+    Found picture(std::string_view line, int number, std::optional<UvScaling>& scaling) {
         const TextureStatement statement = readTexture(line);
-        if (stated_.scaling && *stated_.scaling != statement.scaling)
-            warn(number, "-s and -o differ from those of the material's first picture, which are taken");
-        if (!stated_.scaling) stated_.scaling = statement.scaling;
+        scaling = statement.scaling;
         std::vector<std::string> names = readingsOf(statement.name);
         for (std::string& name : readingsOf(statement.unknown)) names.push_back(std::move(name));
         return {to_.picture(folder_, names, [&](std::string message) { warn(number, std::move(message)); }),
@@ -175,7 +190,7 @@ class MaterialLibrary::File {
     }
 
     void readNormals(std::string_view line, int number) {
-        const Found found = picture(line, number);
+        const Found found = picture(line, number, stated_.ofNormals);
         material().normalImage = found.index;
         material().normalScale = found.bump;
         stated_.normals = true;
@@ -184,7 +199,7 @@ class MaterialLibrary::File {
     // By the specification a map of heights, but most programs write normal maps here.
     void readBump(std::string_view line, int number) {
         if (stated_.normals) return;
-        const Found found = picture(line, number);
+        const Found found = picture(line, number, stated_.ofNormals);
         if (found.index < 0) return;
         if (!holdsNormals(to_.model_.images[size_t(found.index)]))
             return warn(number, "a bump map of heights isn't drawn: only maps of normals are");
@@ -200,9 +215,22 @@ class MaterialLibrary::File {
                 m.baseColor.a = float(1 - stated_.transparency);
             m.bare = m.baseColor.a < 1;
             if (stated_.cutOut >= 0) cutOut(m);
-            if (stated_.scaling) to_.scalings_[current_] = *stated_.scaling;
+            // A picture that emits without a colour emits as it is.
+            if (m.emissiveImage >= 0 && m.emissive == glm::vec3(0)) m.emissive = glm::vec3(1);
+            scaleUvs(m);
         }
         stated_ = {};
+    }
+
+    // Vertices' UVs are those of the colours; other pictures are laid on relative to these.
+    void scaleUvs(Material& m) {
+        const UvScaling drawn =
+            stated_.ofColour.value_or(stated_.ofNormals.value_or(stated_.ofEmission.value_or(UvScaling())));
+        to_.scalings_[current_] = drawn;
+        if (stated_.ofNormals) m.normalMap = relativeTo(drawn, *stated_.ofNormals);
+        if (stated_.ofEmission) m.emissiveMap = relativeTo(drawn, *stated_.ofEmission);
+        if (stated_.ofCutOut.value_or(drawn) != drawn)
+            warn(stated_.cutOutLine, "-s and -o differ from those of the material's colours, which are taken");
     }
 
     void cutOut(Material& m) {

@@ -73,6 +73,9 @@ Status PlyFile::readHeader() {
         Status done = statement(key, rest);
         if (!done) return done;
     }
+    // Where lines end with a carriage return alone, a line feed behind the last one is the body's first byte.
+    const bool returnsAlone = text_.size() > 4 && text_[3] == '\r' && text_[4] != '\n';
+    if (returnsAlone && text_.substr(0, at_).ends_with("\r\n")) --at_;
     if (!hasFormat) return here("the header states no format");
     format_ = stated_;
     ++line_;
@@ -100,9 +103,6 @@ std::string_view PlyFile::headerLine() {
     std::string_view rest = text_.substr(at_);
     const std::string_view line = nextLine(rest);
     at_ = text_.size() - rest.size();
-    // Where lines end with a carriage return alone, a line feed behind the last one is the body's first byte.
-    const bool returnsAlone = text_.size() > 4 && text_[3] == '\r' && text_[4] != '\n';
-    if (returnsAlone && text_.substr(0, at_).ends_with("\r\n")) --at_;
     ++line_;
     return trimmed(line);
 }

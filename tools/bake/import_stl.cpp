@@ -36,23 +36,29 @@ Status readBinary(const std::string& path, Bytes file, std::vector<glm::dvec3>& 
 Status readText(const std::string& path, std::string_view text, std::vector<glm::dvec3>& corners,
                 Blemishes& blemishes) {
     size_t ofLoop = 0;
-    return eachLine(text, [&](std::string_view line, int number) -> Status {
-        const std::string_view key = nextWord(line);
-        if (key == "outer") ofLoop = 0;
-        if (key == "endloop" && ofLoop < 3) {
+    const auto endLoop = [&](int number) {
+        if (ofLoop == 1 || ofLoop == 2) {
             corners.resize(corners.size() - ofLoop);
             blemishes.note("a facet of fewer than 3 corners left out", number);
         }
+        ofLoop = 0;
+    };
+    Status read = eachLine(text, [&](std::string_view line, int number) -> Status {
+        const std::string_view key = nextWord(line);
+        if (key == "outer" || key == "endloop") endLoop(number);
         if (key != "vertex") return Done{};
-        if (ofLoop++ >= 3) return Failure(Diagnostic{path, number, 0, {}, "a facet of more than 3 corners"});
+        if (ofLoop == 3) return Failure(Diagnostic{path, number, 0, {}, "a facet of more than 3 corners"});
         glm::dvec3 p(0);
         for (int k = 0; k < 3; ++k)
             if (!toNumber(nextWord(line), p[k]))
                 return Failure(Diagnostic{path, number, 0, {}, "a vertex without three numbers"});
         if (corners.size() >= kMaxVertices) return Failure(path, "more than 67 million vertices");
         corners.push_back(p);
+        ++ofLoop;
         return Done{};
     });
+    endLoop(0);
+    return read;
 }
 
 }  // namespace
@@ -65,7 +71,6 @@ Status importStl(const std::string& path, Bytes file, const ImportOptions& optio
                       ? readBinary(path, file, corners)
                       : readText(path, {reinterpret_cast<const char*>(file.data()), file.size()}, corners, blemishes);
     if (!done) return done;
-    corners.resize(corners.size() / 3 * 3);
     if (corners.empty()) return Failure(path, "the STL file holds no facets, or is cut off");
     Polygons polygons;
     for (uint32_t i = 0; i < corners.size(); i += 3) {

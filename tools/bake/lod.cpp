@@ -152,7 +152,7 @@ Groups groupVertices(const CoarserMesh& mesh, const std::vector<uint32_t>& mater
               [&](uint32_t a, uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
     for (size_t i = 1; i < count; ++i) {
         const Material& material = surface.materials[materialOf[order[i]]];
-        if (material.baseColorImage >= 0 || material.normalImage >= 0 || key(order[i]) != key(order[i - 1])) continue;
+        if (isTextured(material) || key(order[i]) != key(order[i - 1])) continue;
         groups.first[order[i]] = groups.first[order[i - 1]];
         groups.next[order[i - 1]] = order[i];
     }
