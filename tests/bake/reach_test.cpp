@@ -7,16 +7,6 @@ using namespace espalier;
 using namespace espalier::test;
 using glm::dvec3;
 
-namespace {
-
-double groundOf(const BakeReport& report) {
-    double sum = 0;
-    for (const PieceReach& p : report.pieces) sum += p.area;
-    return sum;
-}
-
-}  // namespace
-
 TEST_CASE("pieces that touch are one, all of whose ground is reached; those apart are pieces of their own") {
     for (double lift : {0.0, 0.5}) {
         CAPTURE(lift);
