@@ -52,10 +52,13 @@ class PlyReader {
         if (polygons_.empty()) return Failure(path_, "the file holds no faces");
         for (const glm::dvec3& p : positions_)
             if (!isPlace(p)) blemishes_.note("a vertex whose position is not a number, named by no face");
+        // Not every element of vertices need have them.
+        if (model_.normals.size() != positions_.size()) model_.normals.clear();
+        if (model_.uvs.size() != positions_.size()) model_.uvs.clear();
+        if (model_.colours.size() != positions_.size()) model_.colours.clear();
         if (splits_) takeSplitVertices();
         settle(splits_ ? places_ : positions_, polygons_.corners(), options_.origin, model_);
         polygons_.fill(model_);
-        if (model_.colours.size() != model_.positions.size()) model_.colours.clear();
         makeColoursLinear(model_);
         if (model_.materials.empty()) model_.materials.emplace_back();
         if (model_.materials.size() == 1) model_.triangleMaterial.clear();
