@@ -55,6 +55,13 @@ TEST_CASE("vertex colours are kept in the file as COLOR_0, by all of its meshes"
         CHECK(blue > 3);
     };
     check(surface->vertices);
+    // The file is a glTF like any other, with its colours in Draco's data.
+    auto again = importModel(folder.file("a.glb"));
+    REQUIRE(again);
+    REQUIRE(again->colours.size() == again->positions.size());
+    for (size_t v = 0; v < again->colours.size(); ++v)
+        CHECK(close(again->colours[v],
+                    again->colours[v].r > 0.5f ? glm::vec4(0.8f, 0.1f, 0, 1) : glm::vec4(0, 0.1f, 0.8f, 0.5f)));
     for (const CoarserMesh& mesh : surface->coarser) check(mesh.vertices);
 }
 

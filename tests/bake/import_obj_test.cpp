@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/core/srgb.hpp"
+#include "tests/bake/gltf_maker.hpp"
 #include "tests/bake/model_folder.hpp"
 #include "tests/bake/small_pictures.hpp"
 
@@ -39,7 +40,7 @@ TEST_CASE("OBJ: what a model can do without is a warning with its line") {
           {kUvSquare + kSquareFace + "l 1 2\np 3\n", "a.obj:11: warning: points, lines"}}) {
         CAPTURE(c.text);
         const Model model = readObj(folder, c.text);
-        CHECK(totalArea(model) >= 1);
+        CHECK(triangleArea(model) >= 1);
         CHECK(warns(model, c.warning));
         BakeOptions options;
         options.resolution = 64;
@@ -59,12 +60,12 @@ TEST_CASE("OBJ: lines end in any way, and may begin with a byte order mark") {
         for (char c : kUvSquare + "# a comment\\\n" + "f 1/1/1 2/2/1 \\\n3/3/1\t4/4/1 # the rest\n")
             text += c == '\n' ? std::string(end) : std::string(1, c);
         const Model model = readObj(folder, text);
-        CHECK(totalArea(model) == 1);
+        CHECK(triangleArea(model) == 1);
         CHECK(model.warnings.empty());
         folder.put("bad.obj", text + "f 1 2 9" + end);
         CHECK(messageOf(importModel(folder.file("bad.obj"))).find("bad.obj:13: vertex 9") != std::string::npos);
     }
-    CHECK(totalArea(readObj(folder, kUvSquare + "f 1 2 3 4\\")) == 1);  // the last line goes on into nothing
+    CHECK(triangleArea(readObj(folder, kUvSquare + "f 1 2 3 4\\")) == 1);  // the last line goes on into nothing
 }
 
 TEST_CASE("OBJ: names of materials and libraries as programs write them") {

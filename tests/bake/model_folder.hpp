@@ -33,13 +33,4 @@ inline bool warns(const Model& model, const std::string& part) {
     return false;
 }
 
-inline double totalArea(const Model& m) {
-    double sum = 0;
-    for (size_t i = 0; i + 2 < m.indices.size(); i += 3)
-        sum += glm::length(glm::cross(m.positions[m.indices[i + 1]] - m.positions[m.indices[i]],
-                                      m.positions[m.indices[i + 2]] - m.positions[m.indices[i]])) /
-               2;
-    return sum;
-}
-
 }  // namespace espalier::test

@@ -22,6 +22,7 @@ using namespace std::string_view_literals;
 const Magic kMagics[] = {
     {"Kaydara FBX Binary"sv, {"FBX", ReadBy::assimp, ".fbx", kExport}},
     {"; FBX "sv, {"FBX (text)", ReadBy::assimp, ".fbx", kExport}},
+    {"FBXHeaderExtension"sv, {"FBX (text)", ReadBy::assimp, ".fbx", kExport}},
     {"xof 0"sv, {"a DirectX model (.x)", ReadBy::assimp, ".x", kExport}},
     {"OFF\n"sv, {"OFF", ReadBy::assimp, ".off", kExport}},
     {"OFF\r"sv, {"OFF", ReadBy::assimp, ".off", kExport}},

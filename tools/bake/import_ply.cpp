@@ -27,6 +27,8 @@ constexpr std::array<PlyNames, kSlots> kVertexNames = {{{"x"},
                                                         {"blue", "diffuse_blue", "b"},
                                                         {"alpha", "diffuse_alpha", "a"}}};
 
+constexpr double kUnsignedRestart = 4294967295.0;  // what -1 is as an unsigned number
+
 // Whole numbers of 8 and 16 bits are shares of the most that they can be.
 double shareOf(double value, PlyType type) {
     return type == PlyType::uint8 ? value / 255 : type == PlyType::uint16 ? value / 65535 : value;
@@ -258,7 +260,7 @@ class PlyReader {
             if (!readRow(element, {}, nullptr)) return cut(element, i);
             const std::vector<double>& strip = lists_[size_t(corners)];
             for (size_t k = 0, first = 0; k < strip.size(); ++k) {
-                if (strip[k] == -1) first = k + 1;
+                if (strip[k] < 0 || strip[k] == kUnsignedRestart) first = k + 1;
                 if (k < first + 2) continue;
                 double a = strip[k - 2], b = strip[k - 1], c = strip[k];
                 if (a == b || b == c || c == a) continue;  // leads on to another place
