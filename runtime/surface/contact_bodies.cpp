@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "runtime/core/disjoint_sets.hpp"
+#include "runtime/surface/triangle_distance.hpp"
 
 namespace espalier {
 namespace {
@@ -36,18 +37,6 @@ int passage(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 origin, glm::dv
     double u = glm::dot(s, h) / det, v = glm::dot(direction, q) / det, t = glm::dot(e2, q) / det;
     if (u < 0 || v < 0 || u + v > 1 || t < 0) return 0;
     return det < 0 ? 1 : -1;
-}
-
-double toTriangle(glm::dvec3 p, const std::array<glm::dvec3, 3>& corner) {
-    const glm::dvec3 n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-    bool within = true;
-    double least = 1e300;
-    for (size_t k = 0; k < 3; ++k) {
-        const glm::dvec3 e = corner[(k + 1) % 3] - corner[k], r = p - corner[k];
-        within = within && glm::dot(glm::cross(n, e), r) >= 0;
-        least = std::min(least, glm::length(r - e * std::clamp(glm::dot(r, e) / glm::dot(e, e), 0.0, 1.0)));
-    }
-    return within ? std::abs(glm::dot(n, p - corner[0])) / glm::length(n) : least;
 }
 
 }  // namespace
@@ -168,7 +157,7 @@ bool Bodies::touched(glm::dvec3 p, uint32_t body, double tolerance) const {
     bool found = false;
     tree_.near(around.grown(tolerance), [&](uint32_t t) {
         if (!found && mesh_->triangles[t].body != body)
-            found = toTriangle(p, {mesh_->at(t, 0), mesh_->at(t, 1), mesh_->at(t, 2)}) <= tolerance;
+            found = distanceToTriangle(p, {mesh_->at(t, 0), mesh_->at(t, 1), mesh_->at(t, 2)}) <= tolerance;
     });
     return found || inside({p, glm::dvec3(0), body}, 0);
 }

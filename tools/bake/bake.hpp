@@ -60,6 +60,10 @@ struct PieceReach {
     double area = 0;       // m² of its ground on the finest level
     double enclosed = 0;   // m² more that can't be got to and that no ray from outside meets
     double reachable = 0;  // m² of `area` in the part within which plants get from everywhere to everywhere
+    // Walks that began there, two radii long, and those of them that end where the model goes on.
+    uint32_t walks = 0, ended = 0;
+    // Of `area`: reachable, less the share of walks that end so.
+    double share() const;
 };
 
 // What a material covers, triangles without area aside.
@@ -93,6 +97,7 @@ struct BakeReport {
     std::vector<Diagnostic> warnings;
     double reachableShare() const;  // of all pieces' ground; 1 where there is none
     double leastReachable() const;  // the least share of a piece that holds a thousandth of the ground or more
+    double endedWalks() const;      // share of all walks
     std::string json() const;
 };
 
