@@ -123,6 +123,9 @@ typedef struct EspSurfaceInfo {
     uint32_t resolution;                /* texels a side of the finest level */
     double walkableArea;                /* m² */
     uint64_t hash;
+    /* What the bake took off the positions of the model's file, since single precision can't hold them; metres, 0 mostly.
+     * A position in the file's coordinates is a position in the surface's space, before its transform, plus this. */
+    double origin[3];
 } EspSurfaceInfo;
 
 /* Loads what espalier-bake wrote and places it. Where it touches other surfaces or runs into them, plants go over from

@@ -26,10 +26,17 @@ class GrammarFiles {
     // told of it then.
     void wrote(const espalier::scene::Scene& scene, uint32_t grammar, const std::string& text);
 
+    // What a grammar includes, each file once.
+    struct Included {
+        std::string text;                // of all of them
+        std::vector<std::string> names;  // relative to the grammar's folder
+    };
+
   private:
     struct Seen {
-        std::vector<FileStamp> stamps;  // of the folder's grammars: an included one counts too
-        std::string text, included;
+        std::vector<FileStamp> stamps;  // of the folder's grammars and of what is included from elsewhere
+        std::string text;
+        Included included;
     };
     std::vector<Seen> seen_;  // by grammar
 };

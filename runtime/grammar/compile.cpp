@@ -1,5 +1,6 @@
 // Text -> rule map: parse, declare, analyse, lower, assemble, verify. And the same from a file, with a cache.
 #include "runtime/core/file.hpp"
+#include "runtime/core/file_beside.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/grammar/parser.hpp"
 #include "runtime/grammar/rule_map_cache.hpp"
@@ -105,10 +106,10 @@ Result<RuleMap> compileGrammar(std::string_view text, const CompileOptions& opti
 }
 
 IncludeReader includesBeside(const std::filesystem::path& file) {
-    return [folder = file.parent_path()](const std::string& name) -> Result<std::string> {
-        if (name.empty() || std::filesystem::path(name).filename() != name || name == "..")
-            return Failure(name, "isn't the name of a file in the same folder");
-        return readTextFile(folder / name);
+    return [file](const std::string& name) -> Result<std::string> {
+        Result<std::filesystem::path> place = placeBeside(file, name);
+        if (!place) return std::move(place.failure());
+        return readTextFile(*place);
     };
 }
 

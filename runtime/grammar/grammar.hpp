@@ -56,9 +56,9 @@ struct TerminalMesh {
 inline constexpr uint32_t kMeshBark = 0, kMeshLeaf = 1, kMeshPebble = 2;
 std::vector<TerminalMesh> standardTerminalMeshes();
 
-// Text of an included file, or why there is none. `name` is as written between the quotes.
+// Text of an included file, or why there is none. `name` is relative to the main file's folder.
 using IncludeReader = std::function<Result<std::string>(const std::string& name)>;
-// Reads files of the same folder only, so that a grammar from elsewhere can't read what isn't its own.
+// Reads what placeBeside (runtime/core/file_beside.hpp) allows, so that a grammar from elsewhere can't read any file.
 IncludeReader includesBeside(const std::filesystem::path& file);
 
 inline constexpr size_t kMaxGrammarBytes = 1 << 20;  // of a text, and of each that it includes

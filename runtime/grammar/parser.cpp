@@ -399,7 +399,9 @@ void parseFile(std::string_view text, const std::string& name, const CompileOpti
     parser.run();
     const std::string mainName = std::filesystem::path(module.files.front()).filename().string();  // as includes say it
     for (const Token& included : parser.includes) {
-        const std::string& wanted = included.text;
+        // As the main file would name it: what an included file includes lies beside that one.
+        const auto folder = file == 0 ? std::filesystem::path() : std::filesystem::path(name).parent_path();
+        const std::string wanted = (folder / included.text).lexically_normal().string();
         if (std::ranges::find(module.files, wanted) != module.files.end() || wanted == mainName) continue;
         if (module.files.size() >= kMaxFiles) {
             reporter.error(included.place, {}, "more than 16 included files");

@@ -61,6 +61,7 @@ EspSurfaceInfo describe(const SurfaceData& data, const glm::mat4& toWorld, uint3
     const double scale = glm::length(glm::vec3(toWorld[0]));
     for (const Chart& chart : data.charts) info.walkableArea += chart.area * scale * scale;
     info.hash = data.hash;
+    for (int k = 0; k < 3; ++k) info.origin[k] = data.origin[k];
     return info;
 }
 

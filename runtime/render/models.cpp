@@ -28,12 +28,16 @@ void takeModelVertices(GraphicsDesc& desc) {
     desc.inputs = {{0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(DrawVertex, position)},
                    {1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(DrawVertex, normal)},
                    {2, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(DrawVertex, tangent)},
-                   {3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(DrawVertex, uv)}};  // and walkUv
+                   {3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(DrawVertex, uv)},  // and walkUv
+                   {5, VK_FORMAT_R16G16B16A16_UNORM, offsetof(DrawVertex, colour)}};
 }
 
 void takeModelPositions(GraphicsDesc& desc, bool pictured) {
     takeModelVertices(desc);
-    desc.inputs.erase(desc.inputs.begin() + 1, pictured ? desc.inputs.end() - 1 : desc.inputs.end());
+    // What is cut out depends on the picture's and the vertices' alpha.
+    std::erase_if(desc.inputs, [&](const auto& input) {
+        return input.location != 0 && !(pictured && (input.location == 3 || input.location == 5));
+    });
 }
 
 Result<Models> Models::create(Device& device) {

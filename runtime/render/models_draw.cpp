@@ -17,8 +17,8 @@ const Image& pictureOr(const std::vector<Image>& images, int index, const Image&
 // and a file without materials means one. Such a surface is drawn as plaster, so that light and shadow show on it.
 glm::vec4 shownColor(const Material& material) {
     const glm::vec4 c = material.baseColor;
-    const bool lost =
-        material.baseColorImage < 0 && (std::max({c.x, c.y, c.z}) < 1e-4f || std::min({c.x, c.y, c.z}) > 0.999f);
+    const bool lost = material.baseColorImage < 0 && !material.coloured &&
+                      (std::max({c.x, c.y, c.z}) < 1e-4f || std::min({c.x, c.y, c.z}) > 0.999f);
     return lost ? glm::vec4(0.30f, 0.285f, 0.26f, c.w) : c;
 }
 

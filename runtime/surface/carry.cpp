@@ -26,13 +26,13 @@ double usualReach(const SurfaceData& from, const SurfaceData& to) {
                     kTexels * std::max(texelOf(from), texelOf(to)));
 }
 
-// The mesh of a surface to look up nearest places on.
+// The mesh of a surface to look up nearest places on, all of them in the space of a surface with another origin.
 class Target {
   public:
-    explicit Target(const SurfaceData& surface) : surface_(surface) {
+    Target(const SurfaceData& surface, glm::dvec3 origin) : surface_(surface), shift_(surface.origin - origin) {
         std::vector<Box> boxes(surface.indices.size() / 3);
         for (uint32_t t = 0; t < boxes.size(); ++t)
-            for (uint32_t k = 0; k < 3; ++k) boxes[t].add(glm::dvec3(vertex(t, k).position));
+            for (uint32_t k = 0; k < 3; ++k) boxes[t].add(placeOf(vertex(t, k)));
         tree_ = BoxTree(std::move(boxes), {});
     }
 
@@ -52,9 +52,8 @@ class Target {
                 const glm::dvec3 outside(a.normal + b.normal + c.normal);
                 const bool faces = glm::dot(outside, normal) > kAgreeing * glm::length(outside);
                 if (!faces && normal != glm::dvec3(0)) return 1e300;
-                const glm::dvec3 w = weights(p, glm::dvec3(a.position), glm::dvec3(b.position), glm::dvec3(c.position));
-                const glm::dvec3 at =
-                    glm::dvec3(a.position) * w.x + glm::dvec3(b.position) * w.y + glm::dvec3(c.position) * w.z;
+                const glm::dvec3 w = weights(p, placeOf(a), placeOf(b), placeOf(c));
+                const glm::dvec3 at = placeOf(a) * w.x + placeOf(b) * w.y + placeOf(c) * w.z;
                 const double far = glm::dot(at - p, at - p);
                 if (far >= best) return far;
                 best = far;
@@ -67,6 +66,7 @@ class Target {
     }
 
   private:
+    glm::dvec3 placeOf(const DrawVertex& v) const { return glm::dvec3(v.position) + shift_; }
     const DrawVertex& vertex(uint32_t t, uint32_t k) const { return surface_.vertices[surface_.indices[t * 3 + k]]; }
 
     // Of the corners, at the point of the triangle that is nearest to p.
@@ -91,6 +91,7 @@ class Target {
     }
 
     const SurfaceData& surface_;
+    const glm::dvec3 shift_;
     BoxTree tree_;
 };
 
@@ -104,7 +105,7 @@ std::vector<SurfaceMatch::Ground> SurfaceMatch::match(const SurfaceData& here, c
         for (uint32_t x = 0; x < level.size; ++x)
             if (texelClass(level.texels[texelIndex(level.size, x, y)].bits) != kTexelEmpty)
                 ground.push_back({x, y, 0, glm::vec2(-1)});
-    const Target target(there);
+    const Target target(there, here.origin);
     parallelFor(ground.size(), 4096, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             Ground& g = ground[i];
@@ -143,7 +144,7 @@ CarriedLayer SurfaceMatch::carry(const UvPicture& layer, float fresh) const {
 std::vector<CarriedPlace> carryPlaces(const SurfaceData& from, const SurfaceData& to, std::span<const glm::vec3> places,
                                       double within) {
     if (!(within > 0)) within = usualReach(from, to);
-    const Target before(from), after(to);
+    const Target before(from, from.origin), after(to, from.origin);
     std::vector<CarriedPlace> out;
     for (const glm::vec3& place : places) {
         const Target::Place stood = before.nearest(glm::dvec3(place), glm::dvec3(0), 1e30);

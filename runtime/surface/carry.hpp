@@ -39,6 +39,7 @@ class SurfaceMatch {
     uint32_t oldSize_;
 };
 
+// places: in the earlier surface's space.
 // What became of the ground that places on or beside the earlier surface stand on: the nearest there is. lost: nothing
 // of the new surface is as near to it as a SurfaceMatch of the same `within` asks.
 struct CarriedPlace {

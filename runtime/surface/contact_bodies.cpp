@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "runtime/core/disjoint_sets.hpp"
+#include "runtime/surface/triangle_distance.hpp"
 
 namespace espalier {
 namespace {
@@ -13,7 +14,18 @@ namespace {
 constexpr double kMostCap = 0.4;      // of a body's area: what is more open is a sheet
 constexpr double kClosed = 0.95;      // of the rims of a body's holes: so much must lie against others to close them
 constexpr double kFacing = 0.95;      // cosine: faces that cover one another
+constexpr double kAbove = 0.1;        // of the tolerance: how far over a face its outside is looked at
+constexpr double kSkin = 0.5;         // of the tolerance: how far before a face a skin still lies against it
+constexpr double kSeenShare = 0.02;   // of a body's area: a lining shows no more
 constexpr double kLevelShare = 0.02;  // of the tolerance: faces nearer to each other lie at one height
+// Where on a triangle it is looked at, by the weights of its corners.
+constexpr std::array<glm::dvec3, 7> kProbes = {{{0.34, 0.33, 0.33},
+                                                {0.9, 0.05, 0.05},
+                                                {0.05, 0.9, 0.05},
+                                                {0.05, 0.05, 0.9},
+                                                {0.475, 0.475, 0.05},
+                                                {0.05, 0.475, 0.475},
+                                                {0.475, 0.05, 0.475}}};
 const glm::dvec3 kRays[3] = {{0.5377, 0.7483, 0.3883}, {-0.6157, 0.4621, -0.6382}, {0.2113, -0.8341, 0.5094}};
 
 // 1 or -1 where the ray leaves or enters through a-b-c, else 0.
@@ -25,18 +37,6 @@ int passage(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c, glm::dvec3 origin, glm::dv
     double u = glm::dot(s, h) / det, v = glm::dot(direction, q) / det, t = glm::dot(e2, q) / det;
     if (u < 0 || v < 0 || u + v > 1 || t < 0) return 0;
     return det < 0 ? 1 : -1;
-}
-
-double toTriangle(glm::dvec3 p, const std::array<glm::dvec3, 3>& corner) {
-    const glm::dvec3 n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-    bool within = true;
-    double least = 1e300;
-    for (size_t k = 0; k < 3; ++k) {
-        const glm::dvec3 e = corner[(k + 1) % 3] - corner[k], r = p - corner[k];
-        within = within && glm::dot(glm::cross(n, e), r) >= 0;
-        least = std::min(least, glm::length(r - e * std::clamp(glm::dot(r, e) / glm::dot(e, e), 0.0, 1.0)));
-    }
-    return within ? std::abs(glm::dot(n, p - corner[0])) / glm::length(n) : least;
 }
 
 }  // namespace
@@ -94,6 +94,32 @@ Bodies::Bodies(ContactMesh& mesh, std::span<const float> open) : mesh_(&mesh), t
     for (size_t b = 0; b < bodies; ++b)
         if (length[b] > 0 && closed[b] >= kClosed * length[b]) mesh.solid[b] = 1, more = true;
     if (more) buildSolids(walls);
+    mesh.lining = findLinings(tolerance);
+}
+
+// A skin may lie a hair before the face that it lies against: its outside is looked at from two heights.
+std::vector<uint8_t> Bodies::findLinings(double tolerance) const {
+    const ContactMesh& mesh = *mesh_;
+    const size_t bodies = mesh.solid.size();
+    std::vector<double> area(bodies, 0), outside(bodies, 0);
+    const auto normalOf = [&](uint32_t t) {
+        return glm::cross(mesh.at(t, 1) - mesh.at(t, 0), mesh.at(t, 2) - mesh.at(t, 0));
+    };
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) area[mesh.triangles[t].body] += glm::length(normalOf(t)) / 2;
+    // Most bodies are seen at their first faces, and not asked further.
+    for (uint32_t t = 0; t < mesh.triangles.size() && !solids_.empty(); ++t) {
+        const uint32_t body = mesh.triangles[t].body;
+        const glm::dvec3 n = normalOf(t);
+        const double size = glm::length(n), share = size / 2 / double(kProbes.size());
+        for (const glm::dvec3& at : kProbes) {
+            if (!(size > 0) || outside[body] > kSeenShare * area[body]) break;
+            const HiddenQuery query{mesh.at(t, 0) * at.x + mesh.at(t, 1) * at.y + mesh.at(t, 2) * at.z, n / size, body};
+            if (!inside(query, kAbove * tolerance) && !inside(query, kSkin * tolerance)) outside[body] += share;
+        }
+    }
+    std::vector<uint8_t> lining(bodies);
+    for (size_t b = 0; b < bodies; ++b) lining[b] = !solids_.empty() && outside[b] <= kSeenShare * area[b];
+    return lining;
 }
 
 void Bodies::buildSolids(const std::vector<Wall>& all) {
@@ -131,7 +157,7 @@ bool Bodies::touched(glm::dvec3 p, uint32_t body, double tolerance) const {
     bool found = false;
     tree_.near(around.grown(tolerance), [&](uint32_t t) {
         if (!found && mesh_->triangles[t].body != body)
-            found = toTriangle(p, {mesh_->at(t, 0), mesh_->at(t, 1), mesh_->at(t, 2)}) <= tolerance;
+            found = distanceToTriangle(p, {mesh_->at(t, 0), mesh_->at(t, 1), mesh_->at(t, 2)}) <= tolerance;
     });
     return found || inside({p, glm::dvec3(0), body}, 0);
 }
@@ -166,7 +192,7 @@ bool Bodies::covered(const HiddenQuery& q, double tolerance) const {
     bool found = false;
     tree_.near(around.grown(tolerance), [&](uint32_t t) {
         const auto& other = mesh_->triangles[t];
-        if (found || other.body == q.body || other.body == q.except) return;
+        if (found || other.body == q.body || other.body == q.except || mesh_->lining[other.body]) return;
         glm::dvec3 a = mesh_->at(t, 0), n = glm::cross(mesh_->at(t, 1) - a, mesh_->at(t, 2) - a);
         n /= std::max(glm::length(n), 1e-300);
         double facing = glm::dot(q.normal, n);
@@ -188,8 +214,8 @@ bool Bodies::covered(const HiddenQuery& q, double tolerance) const {
 
 bool Bodies::hide(const HiddenQuery& q, double tolerance, bool crevices) const {
     if (tree_.empty()) return false;
-    if (!crevices) return inside(q, 0.1 * tolerance) || covered(q, 0.1 * tolerance);
-    return inside(q, 0.1 * tolerance) || inside(q, 1.5 * tolerance) || covered(q, tolerance);
+    if (!crevices) return inside(q, kAbove * tolerance) || covered(q, kAbove * tolerance);
+    return inside(q, kAbove * tolerance) || inside(q, 1.5 * tolerance) || covered(q, tolerance);
 }
 
 }  // namespace espalier

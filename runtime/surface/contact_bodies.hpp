@@ -20,9 +20,11 @@ struct HiddenQuery {
 class Bodies {
   public:
     Bodies() = default;
-    // Sets mesh.solid. A body is solid when it encloses room, its holes closed by fans: kits leave out what stands on
-    // the ground. Holes must be small, or lie against other bodies all around, as the backs of stones that stand out of
-    // a wall. open: per half-edge the share of it that leads nowhere. The mesh must outlive this, unchanged.
+    // Sets mesh.solid and mesh.lining. A body is solid when it encloses room, its holes closed by fans: kits leave out
+    // what stands on the ground. Holes must be small, or lie against other bodies all around, as the backs of stones
+    // that stand out of a wall. A lining is a body whose outside lies within other, solid ones, as the inner skin of a
+    // window's niche whose faces lie against those of the wall: nobody sees it, so it hides nothing and no contact
+    // leads to it. open: per half-edge the share of it that leads nowhere. The mesh must outlive this, unchanged.
     Bodies(ContactMesh& mesh, std::span<const float> open);
 
     // Inside of a solid body other than its own, covered by a face nearer than the tolerance (metres), or, if asked
@@ -51,6 +53,7 @@ class Bodies {
     // Is p on or in another body?
     bool touched(glm::dvec3 p, uint32_t body, double tolerance) const;
     void buildSolids(const std::vector<Wall>& all);
+    std::vector<uint8_t> findLinings(double tolerance) const;
     bool inside(const HiddenQuery& query, double above) const;
     bool covered(const HiddenQuery& query, double tolerance) const;
 

@@ -30,9 +30,21 @@ bool Flaps::areBorders() const {
 }
 
 const Flap* Flaps::leadsTo(const Flap& f) const {
+    if (lining(f)) return leadsOut(f);
     const Flap* g = goesOn(f);
     if (!g || g->side == f.side || seamLeads(f, *g)) return nullptr;
     return faces(*g, f) || !solid(*g) ? g : nullptr;
+}
+
+// From a lining to what is seen, rather over its edge than onto a back.
+const Flap* Flaps::leadsOut(const Flap& f) const {
+    const Flap* best = nullptr;
+    for (const Flap& g : flaps_) {
+        if (g.side == f.side || lining(g)) continue;
+        const auto order = [&](const Flap& h) { return std::pair(!faces(h, f), angle(f, h)); };
+        if (!best || order(g) < order(*best)) best = &g;
+    }
+    return best;
 }
 
 void Flaps::addFlaps(int s) {
@@ -76,7 +88,7 @@ const Flap* Flaps::goesOn(const Flap& f) const {
     const Flap* best = nullptr;
     double least = 0;
     for (const Flap& g : flaps_) {
-        if (&g == &f) continue;
+        if (&g == &f || lining(g)) continue;
         double a = angle(f, g);
         if (a == 0 && g.side != f.side) {
             if (!faces(g, f)) {

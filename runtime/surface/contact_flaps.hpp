@@ -43,12 +43,14 @@ class Flaps {
     void addFlaps(int s);
     void addFlap(int s, uint32_t triangle, glm::dvec3 towards, uint32_t half);
     const Flap* goesOn(const Flap& f) const;
+    const Flap* leadsOut(const Flap& f) const;
     bool before(const Flap& g, const Flap& h, const Flap& f) const;
     bool hides(const Flap& g, const Flap& f) const;
     bool seamLeads(const Flap& f, const Flap& g) const;
 
     uint32_t body(const Flap& f) const { return viewOf(f).mesh.triangles[f.triangle].body; }
     bool solid(const Flap& f) const { return viewOf(f).mesh.solid[body(f)] != 0; }
+    bool lining(const Flap& f) const { return viewOf(f).mesh.lining[body(f)] != 0; }
     // The way around the stretch in which a flap's outside lies: +1 or -1.
     double sideOf(const Flap& f) const { return glm::dot(f.normal, glm::cross(direction_, f.away)) > 0 ? 1 : -1; }
     // Does g turn its outside to a walk that comes from f's outside?

@@ -29,7 +29,8 @@ struct ContactMesh {
     std::vector<uint32_t> seam;        // per half-edge: the one that walks come to over it anyway; empty: the twin
     std::vector<uint8_t> chartBorder;  // per half-edge: the chart ends here
     std::vector<float> orientation;    // per chart, as Chart::orientation
-    std::vector<uint8_t> solid;        // per body: it encloses room (BodyTest); others are sheets
+    std::vector<uint8_t> solid;        // per body: it encloses room (Bodies); others are sheets
+    std::vector<uint8_t> lining;       // per body: all of its outside lies within solid ones (Bodies)
     std::vector<double> reach;         // per point: what lies nearer touches; metres
 
     BoxTree tree() const;  // over the triangles, grouped by shell

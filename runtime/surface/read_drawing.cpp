@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "runtime/core/jobs.hpp"
+#include "runtime/surface/material_json.hpp"
 #include "runtime/surface/picture.hpp"
 #include "runtime/surface/surface_file.hpp"
 #include "runtime/surface/surface_reader.hpp"
@@ -12,8 +13,10 @@
 namespace espalier::surface_file {
 namespace {
 
-int imageOf(const Container& file, const SurfaceData& data, const json& material, const char* key) {
+// The image of a texture, and by which UVs it is looked up.
+int imageOf(const Container& file, const SurfaceData& data, const json& material, const char* key, TextureMap& map) {
     if (!material.is_object() || !material.contains(key)) return -1;
+    map = textureMapOf(material[key]);
     uint64_t texture = whole(material[key], "index", key, 1 << 20);
     const json& textures = array(file.root(), "textures", "glTF", 1 << 20);
     if (texture >= textures.size()) fail(key, "texture " + std::to_string(texture) + " does not exist");
@@ -51,27 +54,26 @@ void readMaterials(Container& file, SurfaceData& data) {
     readPictures(file, data);
     if (file.root().contains("materials"))
         for (const json& m : array(file.root(), "materials", "glTF", kMaxMaterials)) {
-            Material out;
-            json none = json::object();
+            Material out = materialOf(m);
+            const json none = json::object();
             const json& pbr = m.is_object() && m.contains("pbrMetallicRoughness") ? m["pbrMetallicRoughness"] : none;
-            if (pbr.is_object() && pbr.contains("baseColorFactor") && pbr["baseColorFactor"].is_array())
-                for (size_t k = 0; k < 4 && k < pbr["baseColorFactor"].size(); ++k)
-                    if (pbr["baseColorFactor"][k].is_number())
-                        out.baseColor[int(k)] = pbr["baseColorFactor"][k].get<float>();
-            out.baseColorImage = imageOf(file, data, pbr, "baseColorTexture");
-            out.normalImage = imageOf(file, data, m, "normalTexture");
-            out.normalScale = out.normalImage >= 0 ? number(m["normalTexture"], "scale", 1) : 1;
-            out.roughness = std::clamp(number(pbr, "roughnessFactor", 1), 0.0f, 1.0f);
-            out.alphaCutoff = number(m, "alphaCutoff", 0);
-            out.doubleSided = flag(m, "doubleSided");
-            out.bare = m.is_object() && m.contains("extras") && flag(m["extras"], "bare");
+            out.baseColorImage = imageOf(file, data, pbr, "baseColorTexture", out.baseColorMap);
+            out.normalImage = imageOf(file, data, m, "normalTexture", out.normalMap);
+            out.emissiveImage = imageOf(file, data, m, "emissiveTexture", out.emissiveMap);
             data.materials.push_back(out);
         }
     if (data.materials.empty()) data.materials.emplace_back();
 }
 
-void readPrimitive(Container& file, const json& primitive, size_t materials, const std::string& place,
-                   CoarserMesh& into) {
+template <class Read>
+void readColours(const Read& read, std::span<DrawVertex> vertices) {
+    std::vector<glm::vec4> colours(vertices.size());
+    read("COLOR_0", 4, [&](DrawVertex& v) { return &colours[size_t(&v - vertices.data())].x; });
+    for (size_t i = 0; i < colours.size(); ++i) vertices[i].colour = packColour(colours[i]);
+}
+
+void readPrimitive(Container& file, const json& primitive, const std::vector<Material>& materials,
+                   const std::string& place, CoarserMesh& into) {
     const json& packed = at(at(primitive, "extensions", place), kDraco, place);
     auto bytes = file.view(whole(packed, "bufferView", place, 1 << 20), place);
     draco::DecoderBuffer buffer;
@@ -102,7 +104,9 @@ void readPrimitive(Container& file, const json& primitive, size_t materials, con
     read("NORMAL", 3, [](DrawVertex& v) { return &v.normal.x; });
     read("TEXCOORD_0", 2, [](DrawVertex& v) { return &v.uv.x; });
     read("TEXCOORD_1", 2, [](DrawVertex& v) { return &v.walkUv.x; });
-    uint64_t material = primitive.contains("material") ? whole(primitive, "material", place, materials - 1) : 0;
+    if (ids.contains("COLOR_0")) readColours(read, std::span(into.vertices).subspan(base));
+    if (ids.contains("TEXCOORD_2")) read("TEXCOORD_2", 2, [](DrawVertex& v) { return &v.otherUv.x; });
+    uint64_t material = primitive.contains("material") ? whole(primitive, "material", place, materials.size() - 1) : 0;
     into.ranges.push_back({uint32_t(into.indices.size()), mesh.num_faces() * 3, uint32_t(material)});
     for (uint32_t f = 0; f < mesh.num_faces(); ++f)
         for (uint32_t k = 0; k < 3; ++k) {
@@ -112,7 +116,7 @@ void readPrimitive(Container& file, const json& primitive, size_t materials, con
         }
 }
 
-CoarserMesh readMesh(Container& file, uint64_t index, size_t materials) {
+CoarserMesh readMesh(Container& file, uint64_t index, const std::vector<Material>& materials) {
     const json& meshes = array(file.root(), "meshes", "glTF", 1 << 16);
     const std::string place = indexed("meshes", index);
     if (index >= meshes.size()) fail(place, "does not exist");
@@ -120,7 +124,7 @@ CoarserMesh readMesh(Container& file, uint64_t index, size_t materials) {
     const json& primitives = array(meshes[index], "primitives", place.c_str(), 1 << 16);
     for (size_t p = 0; p < primitives.size(); ++p)
         readPrimitive(file, primitives[p], materials, place + "." + indexed("primitives", p), mesh);
-    addTangents(mesh.vertices, mesh.indices);
+    addTangents(mesh.vertices, mesh.indices, mesh.ranges, materials);
     return mesh;
 }
 
@@ -130,7 +134,7 @@ void readDrawing(Container& file, SurfaceData& data) {
     readMaterials(file, data);
     for (const json& coarser : array(file.walk(), "coarser", kExtension, kMaxCoarser)) {
         const float before = data.coarser.empty() ? 0 : data.coarser.back().error;
-        data.coarser.push_back(readMesh(file, whole(coarser, "mesh", "coarser", 1 << 16), data.materials.size()));
+        data.coarser.push_back(readMesh(file, whole(coarser, "mesh", "coarser", 1 << 16), data.materials));
         data.coarser.back().error = number(coarser, "error", -1);
         if (!(data.coarser.back().error >= before)) fail("coarser", "errors don't rise");
     }
@@ -139,11 +143,12 @@ void readDrawing(Container& file, SurfaceData& data) {
         mesh = std::move(data.coarser.front());
         data.coarser.erase(data.coarser.begin());
     } else {
-        mesh = readMesh(file, 0, data.materials.size());
+        mesh = readMesh(file, 0, data.materials);
     }
     data.vertices = std::move(mesh.vertices);
     data.indices = std::move(mesh.indices);
     data.ranges = std::move(mesh.ranges);
+    markColoured(data.vertices, data.indices, data.ranges, data.materials);
     markBareTriangles(data);
 }
 

@@ -26,6 +26,17 @@ void readArray(Container& file, const json& object, const char* key, const std::
     if (!decodeRecords(bytes, out.data(), count, sizeof(T))) fail(here, "damaged compressed data");
 }
 
+// Surfaces near their models' origin have none.
+void readOrigin(const json& walk, const std::string& place, glm::dvec3& out) {
+    if (!walk.contains("origin")) return;
+    const json& origin = array(walk, "origin", place, 3);
+    for (size_t k = 0; k < 3; ++k) {
+        if (k >= origin.size() || !origin[k].is_number()) fail(place, "origin is not three numbers");
+        out[int(k)] = origin[k].get<double>();
+        if (!(std::abs(out[int(k)]) < 1e18)) fail(place, "origin is not three numbers of sane size");
+    }
+}
+
 void readShared(Container& file, const json& walk, SurfaceData& data) {
     std::string place = kExtension;
     data.hash = hexadecimal(walk, "hash", place);
@@ -39,6 +50,7 @@ void readShared(Container& file, const json& walk, SurfaceData& data) {
             (side == 0 ? data.boundsMin : data.boundsMax)[int(k)] = bounds[k].get<float>();
         }
     }
+    readOrigin(walk, place, data.origin);
     readArray(file, walk, "crossings", place, data.crossings);
     readArray(file, walk, "charts", place, data.charts);
     readArray(file, walk, "triangles", place, data.triangles);

@@ -86,11 +86,51 @@ void markBareTriangles(SurfaceData& data) {
     }
 }
 
-void addTangents(std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices) {
+VertexColour packColour(glm::vec4 linear) {
+    VertexColour out = kWhite;
+    for (int k = 0; k < 4; ++k)
+        if (linear[k] < 1) out[size_t(k)] = uint16_t(std::max(linear[k], 0.0f) * 65535 + 0.5f);
+    return out;
+}
+
+glm::vec4 unpackColour(const VertexColour& colour) {
+    return glm::vec4(colour[0], colour[1], colour[2], colour[3]) / 65535.0f;
+}
+
+void markColoured(const std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices,
+                  const std::vector<DrawRange>& ranges, std::vector<Material>& materials) {
+    for (const DrawRange& range : ranges)
+        for (uint32_t i = range.firstIndex; i < range.firstIndex + range.indexCount; ++i)
+            if (vertices[indices[i]].colour != kWhite) {
+                materials[range.material].coloured = true;
+                break;
+            }
+}
+
+std::array<glm::vec3, 2> rowsOf(const TextureMap& map) {
+    const float c = std::cos(map.rotation), s = std::sin(map.rotation);
+    return {glm::vec3(c * map.scale.x, s * map.scale.y, map.offset.x),
+            glm::vec3(-s * map.scale.x, c * map.scale.y, map.offset.y)};
+}
+
+void addTangents(std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices,
+                 const std::vector<DrawRange>& ranges, const std::vector<Material>& materials) {
+    std::vector<glm::vec2> uv(vertices.size());
+    for (size_t i = 0; i < uv.size(); ++i) uv[i] = vertices[i].uv;
+    for (const DrawRange& range : ranges) {
+        const TextureMap& map = materials[range.material].normalMap;
+        if (map == TextureMap()) continue;
+        const auto rows = rowsOf(map);
+        for (uint32_t i = range.firstIndex; i < range.firstIndex + range.indexCount; ++i) {
+            const DrawVertex& vertex = vertices[indices[i]];
+            const glm::vec3 at(map.set == 0 ? vertex.uv : vertex.otherUv, 1);
+            uv[indices[i]] = {glm::dot(rows[0], at), glm::dot(rows[1], at)};
+        }
+    }
     std::vector<glm::vec3> u(vertices.size(), glm::vec3(0)), v(vertices.size(), glm::vec3(0));
     for (size_t i = 0; i + 2 < indices.size(); i += 3) {
         const DrawVertex &a = vertices[indices[i]], &b = vertices[indices[i + 1]], &c = vertices[indices[i + 2]];
-        glm::vec2 d1 = b.uv - a.uv, d2 = c.uv - a.uv;
+        glm::vec2 d1 = uv[indices[i + 1]] - uv[indices[i]], d2 = uv[indices[i + 2]] - uv[indices[i]];
         float det = d1.x * d2.y - d1.y * d2.x;
         if (std::abs(det) < 1e-20f) continue;
         glm::vec3 e1 = b.position - a.position, e2 = c.position - a.position;

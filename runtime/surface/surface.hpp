@@ -29,24 +29,54 @@ struct Picture {
     std::vector<uint8_t> encoded;  // the PNG or JPEG that it came from, kept in files; empty: none
 };
 
+// By which UVs a texture is looked up: a set of the vertices', moved as KHR_texture_transform says.
+struct TextureMap {
+    uint32_t set = 0;  // 0: DrawVertex::uv; 1: otherUv
+    glm::vec2 offset{0}, scale{1};
+    float rotation = 0;  // radians
+    bool operator==(const TextureMap&) const = default;
+};
+// The map's rows: u = dot(rows[0], (u, v, 1)), v likewise.
+std::array<glm::vec3, 2> rowsOf(const TextureMap& map);
+
 // A glTF material as far as it is drawn. An image index of -1: none.
 struct Material {
     glm::vec4 baseColor{1};   // linear
     int baseColorImage = -1;  // sRGB
     int normalImage = -1;     // tangent space, +Y up
+    int emissiveImage = -1;   // sRGB
     float normalScale = 1;
     float roughness = 1;
-    float alphaCutoff = 0;  // 0: opaque
+    float alphaCutoff = 0;   // 0: opaque
+    glm::vec3 emissive{0};   // linear, times its strength
+    float transmission = 0;  // share of the light that passes straight through
+    bool blended = false;    // what lies behind is seen where alpha is below 1
     bool doubleSided = false;
-    bool bare = false;  // nothing grows on it
+    bool bare = false;      // nothing grows on it
+    bool coloured = false;  // vertices that have it have colours of their own
+    TextureMap baseColorMap, normalMap, emissiveMap;
 };
+inline bool isTextured(const Material& m) {
+    return m.baseColorImage >= 0 || m.normalImage >= 0 || m.emissiveImage >= 0;
+}
+inline bool usesOtherUv(const Material& m) {
+    return m.baseColorMap.set + m.normalMap.set + m.emissiveMap.set > 0;
+}
+
+// A vertex's colour, linear; 65535 is 1.
+using VertexColour = std::array<uint16_t, 4>;
+inline constexpr VertexColour kWhite{65535, 65535, 65535, 65535};
+VertexColour packColour(glm::vec4 linear);
+glm::vec4 unpackColour(const VertexColour& colour);
 
 struct DrawVertex {
     glm::vec3 position;  // object space, metres
     glm::vec3 normal;
-    glm::vec4 tangent;  // w: sign of the bitangent; zero where the model has no UVs
+    glm::vec4 tangent;  // of the normal map; w: sign of the bitangent; zero where the model has no UVs
     glm::vec2 uv;       // the materials' UV set
     glm::vec2 walkUv;
+    glm::vec2 otherUv{0};          // a second set, of materials whose textures lie in two
+    VertexColour colour = kWhite;  // times the material's
 };
 
 struct DrawRange {
@@ -70,6 +100,7 @@ struct SurfaceData {
     std::vector<Chart> charts;
     std::vector<TrianglePlane> triangles;  // sorted by chart
     glm::vec3 boundsMin{0}, boundsMax{0};
+    glm::dvec3 origin{0};  // metres: the model's file says positions that are larger by this
 
     std::vector<DrawVertex> vertices;  // the decoded mesh, for drawing
     std::vector<uint32_t> indices;
@@ -97,8 +128,14 @@ inline glm::vec3 placeOn(const TrianglePlane& t, glm::vec2 uv) {
 // Fills in bareTriangles by ranges and materials.
 void markBareTriangles(SurfaceData& data);
 
-// Puts tangents on vertices from positions, normals and the materials' UVs; zero where those have no area.
-void addTangents(std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices);
+// Fills in Material::coloured by the vertices of a mesh; all materials that its ranges name must be there.
+void markColoured(const std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices,
+                  const std::vector<DrawRange>& ranges, std::vector<Material>& materials);
+
+// Puts tangents on vertices from positions, normals and the UVs of their materials' normal maps; zero where those have
+// no area.
+void addTangents(std::vector<DrawVertex>& vertices, const std::vector<uint32_t>& indices,
+                 const std::vector<DrawRange>& ranges, const std::vector<Material>& materials);
 
 // What of a file is read. With a finestLevel above 0 reading stops after that level, and the rest of the file may be
 // missing still: levels count from that one, the mesh is the finest that stands before it in the file, pictures are

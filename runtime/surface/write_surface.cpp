@@ -3,6 +3,7 @@
 #include <draco/compression/encode.h>
 #include <stb_image_write.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "runtime/core/hash.hpp"
 #include "runtime/core/jobs.hpp"
 #include "runtime/surface/codec.hpp"
+#include "runtime/surface/material_json.hpp"
 #include "runtime/surface/surface.hpp"
 #include "runtime/surface/surface_file.hpp"
 
@@ -20,7 +22,7 @@ namespace {
 using nlohmann::ordered_json;
 using namespace surface_file;
 
-constexpr int kPositionBits = 16, kUvBits = 16, kNormalBits = 12;
+constexpr int kPositionBits = 16, kUvBits = 16, kNormalBits = 12, kColourBits = 12;
 constexpr size_t kMaxBinary = 0xFFFF0000u;
 
 std::string hex(uint64_t value) {
@@ -97,7 +99,7 @@ class Writer {
     struct PackedRange {
         uint32_t material = 0, points = 0, faces = 0;
         draco::EncoderBuffer bytes;
-        std::array<uint32_t, 4> unique{};  // ids of position, normal and both UVs
+        std::vector<std::pair<const char*, uint32_t>> attributes;  // names and Draco's ids, POSITION first
         glm::vec3 low{3e38f}, high{-3e38f};
         const char* fault = nullptr;
     };
@@ -145,11 +147,22 @@ class Writer {
         }
         auto vertex = [&](uint32_t i) -> const DrawVertex& { return drawn.vertices[used[i]]; };
         using Kind = draco::GeometryAttribute;
-        int ids[4] = {addAttribute(mesh, Kind::POSITION, 3, [&](uint32_t i) { return &vertex(i).position.x; }),
-                      addAttribute(mesh, Kind::NORMAL, 3, [&](uint32_t i) { return &vertex(i).normal.x; }),
-                      addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).uv.x; }),
-                      addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).walkUv.x; })};
-        for (size_t k = 0; k < 4; ++k) out.unique[k] = mesh.attribute(ids[k])->unique_id();
+        std::vector<std::pair<const char*, int>> ids{
+            {"POSITION", addAttribute(mesh, Kind::POSITION, 3, [&](uint32_t i) { return &vertex(i).position.x; })},
+            {"NORMAL", addAttribute(mesh, Kind::NORMAL, 3, [&](uint32_t i) { return &vertex(i).normal.x; })},
+            {"TEXCOORD_0", addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).uv.x; })},
+            {"TEXCOORD_1", addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).walkUv.x; })}};
+        if (range.material < data_.materials.size() && usesOtherUv(data_.materials[range.material]))
+            ids.emplace_back("TEXCOORD_2",
+                             addAttribute(mesh, Kind::TEX_COORD, 2, [&](uint32_t i) { return &vertex(i).otherUv.x; }));
+        if (std::ranges::any_of(used, [&](uint32_t v) { return drawn.vertices[v].colour != kWhite; })) {
+            glm::vec4 colour;
+            ids.emplace_back("COLOR_0", addAttribute(mesh, Kind::COLOR, 4, [&](uint32_t i) {
+                                 colour = unpackColour(vertex(i).colour);
+                                 return &colour.x;
+                             }));
+        }
+        for (const auto& [name, id] : ids) out.attributes.emplace_back(name, mesh.attribute(id)->unique_id());
         out.material = range.material;
         if (!encode(mesh, out.bytes))
             out.fault = "Draco could not encode the mesh";
@@ -168,6 +181,7 @@ class Writer {
                                                      extent_);
             encoder.SetAttributeQuantization(draco::GeometryAttribute::NORMAL, kNormalBits);
             encoder.SetAttributeQuantization(draco::GeometryAttribute::TEX_COORD, kUvBits);
+            encoder.SetAttributeQuantization(draco::GeometryAttribute::COLOR, kColourBits);
             out.Clear();
             if (encoder.EncodeMeshToBuffer(mesh, &out).ok()) return true;
         }
@@ -186,7 +200,7 @@ class Writer {
         }
         const draco::Mesh& mesh = *decoded.value();
         out.points = mesh.num_points(), out.faces = uint32_t(mesh.num_faces());
-        const draco::PointAttribute* position = mesh.GetAttributeByUniqueId(out.unique[0]);
+        const draco::PointAttribute* position = mesh.GetAttributeByUniqueId(out.attributes.front().second);
         for (uint32_t i = 0; i < out.points; ++i) {
             glm::vec3 p;
             position->ConvertValue<float, 3>(position->mapped_index(draco::PointIndex(i)), &p.x);
@@ -197,14 +211,14 @@ class Writer {
     void describeRange(const PackedRange& range, ordered_json& primitives) {
         if (range.faces == 0) return;  // triangles without area only
         int view = addView(range.bytes.data(), range.bytes.size());
-        static constexpr const char* kNames[4] = {"POSITION", "NORMAL", "TEXCOORD_0", "TEXCOORD_1"};
         ordered_json attributes, packed;
-        for (int k = 0; k < 4; ++k) {
-            packed[kNames[k]] = range.unique[size_t(k)];
-            attributes[kNames[k]] = root_["accessors"].size();
-            ordered_json accessor = {
-                {"componentType", 5126}, {"count", range.points}, {"type", k < 2 ? "VEC3" : "VEC2"}};
-            if (k == 0) {
+        for (const auto& [name, id] : range.attributes) {
+            const std::string_view kind = name;
+            packed[name] = id;
+            attributes[name] = root_["accessors"].size();
+            ordered_json accessor = {{"componentType", 5126}, {"count", range.points}};
+            accessor["type"] = kind == "COLOR_0" ? "VEC4" : kind.starts_with("TEXCOORD") ? "VEC2" : "VEC3";
+            if (kind == "POSITION") {
                 accessor["min"] = {range.low.x, range.low.y, range.low.z};
                 accessor["max"] = {range.high.x, range.high.y, range.high.z};
             }
@@ -251,20 +265,9 @@ class Writer {
 
     void writeMaterials() {
         ordered_json materials = ordered_json::array();
-        for (const Material& m : data_.materials) {
-            ordered_json pbr = {{"baseColorFactor", {m.baseColor.r, m.baseColor.g, m.baseColor.b, m.baseColor.a}},
-                                {"metallicFactor", 0},
-                                {"roughnessFactor", m.roughness}};
-            if (m.baseColorImage >= 0) pbr["baseColorTexture"] = {{"index", m.baseColorImage}};
-            ordered_json material = {{"pbrMetallicRoughness", pbr}, {"doubleSided", m.doubleSided}};
-            if (m.normalImage >= 0) material["normalTexture"] = {{"index", m.normalImage}, {"scale", m.normalScale}};
-            if (m.alphaCutoff > 0) {
-                material["alphaMode"] = "MASK";
-                material["alphaCutoff"] = m.alphaCutoff;
-            }
-            if (m.bare) material["extras"] = {{"bare", true}};
-            materials.push_back(std::move(material));
-        }
+        std::vector<std::string> extensions;
+        for (const Material& m : data_.materials) materials.push_back(materialJson(m, extensions));
+        for (const std::string& name : extensions) root_["extensionsUsed"].push_back(name);
         if (!materials.empty()) root_["materials"] = std::move(materials);
         if (data_.images.empty()) return;
         root_["samplers"] = {{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 10497}, {"wrapT", 10497}}};
@@ -309,6 +312,7 @@ class Writer {
                  {"bounds_min", {data_.boundsMin.x, data_.boundsMin.y, data_.boundsMin.z}},
                  {"bounds_max", {data_.boundsMax.x, data_.boundsMax.y, data_.boundsMax.z}},
                  {"uv_set", 1}};
+        if (data_.origin != glm::dvec3(0)) walk_["origin"] = {data_.origin.x, data_.origin.y, data_.origin.z};
         walk_["crossings"] = writeRecords(data_.crossings, packedCrossings_);
         walk_["charts"] = writeRecords(data_.charts, pack(data_.charts));
         walk_["triangles"] = writeRecords(data_.triangles, packedTriangles_);

@@ -16,6 +16,7 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec4 uvs;
+layout(location = 5) in vec4 tint;
 layout(location = 0) out vec4 color;
 
 const float kHatching = 0.012;   // between stripes, of the distance
@@ -113,7 +114,7 @@ void main() {
     vec3 eye = normalize(frame.eye - position);
     if (dot(n, eye) < 0.0 && !gl_FrontFacing) n = -n;
     vec4 base = texture(colorMap, uvs.xy);
-    base = vec4(texelColor(base.rgb), base.a) * push.baseColor;
+    base = vec4(texelColor(base.rgb), base.a) * push.baseColor * tint;
     if (push.alphaCutoff > 0.0 && base.a < push.alphaCutoff) demote;
     vec3 bumped = n;
     float across = dot(tangent.xyz, tangent.xyz);

@@ -6,8 +6,8 @@
 
 layout(push_constant, scalar) uniform Data { ModelPush push; };
 layout(set = 0, binding = 0) uniform sampler2D colorMap;
-layout(location = 0) in vec2 uv;
+layout(location = 0) in vec3 uvAlpha;
 
 void main() {
-    if (texture(colorMap, uv).a * push.baseColor.a < push.alphaCutoff) discard;
+    if (texture(colorMap, uvAlpha.xy).a * push.baseColor.a * uvAlpha.z < push.alphaCutoff) discard;
 }

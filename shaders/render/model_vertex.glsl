@@ -9,13 +9,16 @@ layout(location = 0) in vec3 atVertex;
 layout(location = 1) in vec3 vertexNormal;
 layout(location = 2) in vec4 vertexTangent;
 layout(location = 3) in vec4 vertexUvs;   // of the textures, of the walk
+layout(location = 5) in vec4 vertexColour;   // linear
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 uvs;
+layout(location = 5) out vec4 tint;   // the vertex's colour
 #elif defined(ESPALIER_CUT_OUT)
 layout(location = 3) in vec4 vertexUvs;
-layout(location = 0) out vec2 uv;
+layout(location = 5) in vec4 vertexColour;
+layout(location = 0) out vec3 uvAlpha;
 #endif
 
 // Of a row of the placing matrix. No dot product: that would be left to the compiler.
@@ -32,8 +35,9 @@ void main() {
     tangent = vec4(dot(push.toWorld[0].xyz, vertexTangent.xyz), dot(push.toWorld[1].xyz, vertexTangent.xyz),
                    dot(push.toWorld[2].xyz, vertexTangent.xyz), vertexTangent.w);
     uvs = vertexUvs;
+    tint = vertexColour;
 #elif defined(ESPALIER_CUT_OUT)
-    uv = vertexUvs.xy;
+    uvAlpha = vec3(vertexUvs.xy, vertexColour.a);
 #endif
     precise vec4 clip = frame.viewProjection * vec4(at, 1.0);
     gl_Position = clip;

@@ -105,3 +105,21 @@ TEST_CASE("a mask that is carried again and again keeps its borders") {
     forGround(one, mask, [&](glm::vec3, glm::vec3, float v) { least = std::min(least, v); });
     CHECK(least > 0.999f);
 }
+
+TEST_CASE("surfaces that a bake gave unlike origins lie in one place all the same") {
+    const SurfaceData from = surfaceOf(cube(3));
+    Model moved = cube(5);
+    moved.origin = {-30, 0, 7};
+    for (glm::vec3& p : moved.positions) p -= glm::vec3(moved.origin);
+    const SurfaceData to = surfaceOf(moved, 128);
+    const CarriedLayer carried = SurfaceMatch(from, to).carry(paint(from, hue));
+    CHECK(carried.fresh == 0);
+    CHECK(carried.lost == 0);
+    float worst = 0;
+    forGround(to, carried.layer, [&](glm::vec3 p, glm::vec3, float v) {
+        worst = std::max(worst, std::abs(v - hue(p + glm::vec3(moved.origin))));
+    });
+    CHECK(worst < 0.01f);
+    const glm::vec3 on(1, 0, 0);
+    CHECK(!carryPlaces(from, to, std::span(&on, 1)).front().lost);
+}

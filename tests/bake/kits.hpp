@@ -90,6 +90,13 @@ class Kit {
     std::vector<Panel> panels_;
 };
 
+// m² of a model's ground, in all of its pieces.
+inline double groundOf(const BakeReport& report) {
+    double sum = 0;
+    for (const PieceReach& p : report.pieces) sum += p.area;
+    return sum;
+}
+
 // A walk over a baked kit.
 class Stroll {
   public:

@@ -1,21 +1,12 @@
 // How far plants get about on pieces, whose ground is known by construction.
 #include <doctest/doctest.h>
 
+#include "tests/bake/baking.hpp"
 #include "tests/bake/kits.hpp"
 
 using namespace espalier;
 using namespace espalier::test;
 using glm::dvec3;
-
-namespace {
-
-double groundOf(const BakeReport& report) {
-    double sum = 0;
-    for (const PieceReach& p : report.pieces) sum += p.area;
-    return sum;
-}
-
-}  // namespace
 
 TEST_CASE("pieces that touch are one, all of whose ground is reached; those apart are pieces of their own") {
     for (double lift : {0.0, 0.5}) {
@@ -96,5 +87,23 @@ TEST_CASE("the inside of a hall without a floor doesn't count, unless a wall is 
         const double outside = 16 + (wall ? 4 : 3) * 4 * height, ceiling = 16;
         CHECK(report.pieces[0].enclosed == doctest::Approx(wall ? ceiling : 0).epsilon(0.02));
         CHECK(report.reachableShare() == doctest::Approx(wall ? 1 : outside / (outside + ceiling)).epsilon(0.02));
+    }
+}
+
+TEST_CASE("walks that end where the model goes on count against reach; those at its own borders don't") {
+    Kit kit;
+    kit.panel({-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+    kit.box({0, 0.5, 0}, dvec3(0.5), false);  // stands on the floor, and is one with it by contacts alone
+    BakeOptions options;
+    options.resolution = 512;
+    options.keepLayout = true;
+    for (bool joined : {true, false}) {
+        CAPTURE(joined);
+        options.contacts = joined;
+        const BakeReport report = bakeOrFail(kit.model(), options).report;
+        const double ended = report.endedWalks();
+        CHECK((joined ? ended == 0 : ended > 0.1));
+        CHECK((joined ? report.leastReachable() > 0.99 : report.leastReachable() < 0.5));
+        CHECK(report.json().find("\"ended_walks\"") != std::string::npos);
     }
 }

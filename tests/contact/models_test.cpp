@@ -104,7 +104,9 @@ Verdict judge(const Model& model, const Baked& baked) {
     for (const Crossing& c : surface.crossings) {
         const uint32_t kind = c.flags & 3u;
         if (kind == kCrossingContact) contacts.push_back(lineOf(surface, c));
-        if (kind == kCrossingSeam) seams.push_back(lineOf(surface, c)), seamOf.push_back(&c);
+        // Near borders lead from piece to piece as seams do.
+        if (kind == kCrossingSeam || kind == kCrossingNearest)
+            seams.push_back(lineOf(surface, c)), seamOf.push_back(&c);
     }
     std::vector<double> until;
     for (const ContactLine& l : lines) until.push_back((until.empty() ? 0 : until.back()) + glm::length(l.b - l.a));
@@ -125,7 +127,10 @@ Verdict judge(const Model& model, const Baked& baked) {
                                        [&](const ContactLine& c) { return toSegment(p, c) <= 1.5 * texel; });
             for (size_t k = 0; k < seams.size() && !crosses; ++k)
                 crosses = toSegment(p, seams[k]) <= 0.1 * texel && leadsOn(surface, oracle, *seamOf[k]);
-            crossed += crosses || chartGoesOn(surface, oracle, p, 1.5 * texel);
+            crosses = crosses || chartGoesOn(surface, oracle, p, 1.5 * texel);
+            if (!crosses && std::getenv("ESPALIER_VERBOSE"))
+                std::printf("    not crossed: %.4f %.4f %.4f\n", p.x, p.y, p.z);
+            crossed += crosses;
         }
         verdict.crossed = seen > 0 ? double(crossed) / seen : 1;
     }

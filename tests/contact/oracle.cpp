@@ -44,6 +44,12 @@ double solidAngle(Vec3 a, Vec3 b, Vec3 c, Vec3 p) {
     return std::atan2(up, down) / 6.283185307179586;
 }
 
+constexpr double kAgainst = -0.9986;  // cosine: of faces that lie against each other, 3 degrees off at most
+
+Vec3 normalOf(const Vec3 (&p)[3]) {
+    return glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
+}
+
 double toSegment(Vec3 p, Vec3 a, Vec3 b) {
     double t = std::clamp(glm::dot(p - a, b - a) / std::max(glm::dot(b - a, b - a), 1e-300), 0.0, 1.0);
     return glm::length(p - (a + (b - a) * t));
@@ -155,6 +161,7 @@ std::vector<ContactLine> Oracle::intersections() const {
     std::vector<ContactLine> lines;
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& x, const Box& y) {
         if (triangles_[x.info()].piece == triangles_[y.info()].piece) return;
+        if (glm::dot(normalOf(triangles_[x.info()].p), normalOf(triangles_[y.info()].p)) < kAgainst) return;
         auto shared = CGAL::intersection(shapes[x.info()], shapes[y.info()]);
         if (!shared) return;
         if (const auto* s = heldAs<Kernel::Segment_3>(*shared))

@@ -21,7 +21,8 @@ class Oracle {
     // Vertices within a millionth of the model's radius are one.
     explicit Oracle(const Model& model);
 
-    // Where triangles of different pieces cross each other, not merely touch.
+    // Where triangles of different pieces cross each other, not merely touch: faces that lie against each other touch,
+    // though by a hair of rounding their planes cross.
     std::vector<ContactLine> intersections() const;
     // Does a straight way lead from p out of the model, not to the ground under it, on which models stand? `normal`: on
     // that side only, 0: on all.

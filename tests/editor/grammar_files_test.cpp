@@ -147,3 +147,20 @@ TEST_CASE("what was written from here is no news, though it includes other files
     CHECK_MESSAGE(t.files.look(t.scene).size() == 1, "an included file has changed, too");
     CHECK(t.files.look(t.scene).empty());
 }
+
+TEST_CASE("a file that is included from another folder counts, too") {
+    Texts t;
+    std::filesystem::create_directories(t.folder.path / "lib");
+    const std::string text = "include \"lib/parts.grammar\"\nA -> NULL";
+    t.write("lib/more.grammar", "// more");
+    t.write("lib/parts.grammar", "include \"more.grammar\"\n");
+    t.write("a.grammar", text);
+    t.scene.grammars[0].text = text;
+    t.files.begin(t.scene);
+    CHECK(t.files.look(t.scene).empty());
+    t.write("lib/more.grammar", "// still more");  // beside the file that includes it
+    const auto changes = t.files.look(t.scene);
+    REQUIRE(changes.size() == 1);
+    CHECK(changes[0].grammar == 0);
+    CHECK(t.files.look(t.scene).empty());
+}

@@ -1,15 +1,15 @@
 // In: bytes. Out: nothing, if all goes well; a model that is accepted must hold what it promises.
+#include <stdlib.h>
+
+#include "runtime/core/file.hpp"
 #include "tests/fuzz/promise.hpp"
+#include "tools/bake/import_kind.hpp"
 #include "tools/bake/import_model.hpp"
 
 namespace espalier::fuzz {
 namespace {
 
-void import(Bytes bytes, std::string_view ending) {
-    MemoryFile file(bytes);
-    ImportOptions options;
-    options.as = ending;
-    auto model = importModel(file.path(), options);
+void check(Result<Model> model) {
     if (!model) return checkMessage(model.failure());
     size_t vertices = model->positions.size();
     require(model->indices.size() % 3 == 0 && !model->indices.empty(), "three indices a triangle, one at least");
@@ -19,21 +19,58 @@ void import(Bytes bytes, std::string_view ending) {
     require(model->uvs.empty() || model->uvs.size() == vertices, "a UV a vertex");
     require(model->triangleMaterial.empty() || model->triangleMaterial.size() * 3 == model->indices.size(),
             "a material a triangle");
+    require(model->materialUvs.empty() || model->materialUvs.size() == vertices, "a material's UV a vertex");
+    require(model->colours.empty() || model->colours.size() == vertices, "a colour a vertex");
     for (uint32_t m : model->triangleMaterial) require(m < model->materials.size(), "materials exist");
+    for (const Material& m : model->materials)
+        for (int image : {m.baseColorImage, m.normalImage})
+            require(image < int(model->images.size()), "materials' pictures exist");
+}
+
+void importBytes(Bytes bytes, std::string_view ending) {
+    MemoryFile file(bytes);
+    ImportOptions options;
+    options.as = ending;
+    check(importModel(file.path(), options));
+}
+
+// A model beside its materials. Lies in a folder of this process's own, which is left to the system.
+std::string modelBeside(Bytes materials) {
+    static const std::string folder = [] {
+        std::string name = "/tmp/espalier-fuzz-XXXXXX";
+        if (!::mkdtemp(name.data())) std::abort();
+        constexpr std::string_view kModel =
+            "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";
+        require(bool(writeFile(name + "/a.obj", kModel)), "the model can be written");
+        return name;
+    }();
+    require(bool(writeFile(folder + "/a.mtl", std::as_bytes(materials))), "the materials can be written");
+    return folder + "/a.obj";
 }
 
 }  // namespace
 
 void gltf(Bytes bytes) {
-    import(bytes, ".gltf");
+    importBytes(bytes, ".gltf");
 }
 
 void obj(Bytes bytes) {
-    import(bytes, ".obj");
+    importBytes(bytes, ".obj");
 }
 
 void ply(Bytes bytes) {
-    import(bytes, ".ply");
+    importBytes(bytes, ".ply");
+}
+
+void stl(Bytes bytes) {
+    const import::FileKind* kind = import::kindOf(bytes);
+    require(!kind || (*kind->name && *kind->advice), "a kind has a name and an advice");
+    (void)import::looksLikeObj(bytes);
+    importBytes(bytes, ".stl");
+}
+
+void mtl(Bytes bytes) {
+    check(importModel(modelBeside(bytes)));
 }
 
 }  // namespace espalier::fuzz

@@ -13,6 +13,8 @@ using Bytes = std::span<const uint8_t>;
 void gltf(Bytes bytes);       // the glTF importer: text or container
 void obj(Bytes bytes);        // the OBJ importer
 void ply(Bytes bytes);        // the PLY importer, packed or not
+void stl(Bytes bytes);        // the STL importer, and telling a file's kind
+void mtl(Bytes bytes);        // the materials of an OBJ file
 void surface(Bytes bytes);    // the surface reader; its hashes are not compared in a fuzzing build
 void grammar(Bytes bytes);    // the grammar compiler, and loading what it made
 void roof(Bytes bytes);       // the reader of footprints, and the roofs over them
@@ -25,8 +27,9 @@ struct Target {
     const char* name;
     void (*run)(Bytes);
 };
-inline constexpr Target kTargets[] = {{"gltf", gltf},           {"obj", obj},   {"ply", ply},     {"surface", surface},
-                                      {"grammar", grammar},     {"roof", roof}, {"plant", plant}, {"scene", scene},
-                                      {"terminals", terminals}, {"run", run}};
+inline constexpr Target kTargets[] = {
+    {"gltf", gltf},           {"obj", obj},         {"ply", ply},   {"stl", stl},     {"mtl", mtl},
+    {"surface", surface},     {"grammar", grammar}, {"roof", roof}, {"plant", plant}, {"scene", scene},
+    {"terminals", terminals}, {"run", run}};
 
 }  // namespace espalier::fuzz

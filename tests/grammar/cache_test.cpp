@@ -274,16 +274,23 @@ TEST_CASE("the cache holds the grammars used last, and leaves other files alone"
     CHECK(std::distance(begin(files), end(files)) == std::ptrdiff_t(RuleMapCache::kMost) + 1);
 }
 
-TEST_CASE("files: a missing one is named, includes stay in their folder") {
+TEST_CASE("files: a missing one is named, includes stay near their folder") {
     CHECK(compileGrammarFile("no/such.grammar").failure().text().find("no/such.grammar") != std::string::npos);
     TemporaryFolder folder;
-    std::filesystem::create_directories(folder.path / "inner");
+    std::filesystem::create_directories(folder.path / "kit" / "main" / "deep");
+    std::filesystem::create_directories(folder.path / "kit" / "common");
+    const auto compiles = [&](const std::string& name) {
+        write(folder.path / "kit/main/deep/a.grammar", "include \"" + name + "\"\nA -> Marching(p, 0, true) {A}\n");
+        return compileGrammarFile(folder.path / "kit/main/deep/a.grammar");
+    };
+    // What an included file includes lies beside that one.
+    write(folder.path / "kit/common/lib.grammar", "include \"values.grammar\"\n");
+    write(folder.path / "kit/common/values.grammar", "param p = 0.1\n");
+    CHECK(compiles("../../common/lib.grammar"));
     write(folder.path / "secret.grammar", "param p = 0.1\n");
-    write(folder.path / "inner" / "a.grammar", "include \"../secret.grammar\"\nA -> Marching(p, 0, true) {A}\n");
-    CHECK(compileGrammarFile(folder.path / "inner" / "a.grammar")
-              .failure()
-              .text()
-              .find("isn't the name of a file in the same folder") != std::string::npos);
+    Result<RuleMap> outside = compiles("../../../secret.grammar");
+    REQUIRE_FALSE(outside);
+    CHECK(outside.failure().text().find("2 folders above") != std::string::npos);
     write(folder.path / "loop.grammar",
           "include \"loop.grammar\"\ninclude \"loop2.grammar\"\nA -> Marching(0.1, 0, true) {A}\n");
     write(folder.path / "loop2.grammar", "include \"loop.grammar\"\n");

@@ -75,6 +75,7 @@ static uint64_t wholeLife(EspContext* context) {
     OK(context, espSurfaceInfo(context, surface, &info));
     CHECK(info.triangles > 1000 && info.charts > 1 && info.levels >= 1 && info.resolution >= 64);
     CHECK(info.walkableArea > 10 && info.boundsMax[1] > info.boundsMin[1] && info.hash != 0);
+    CHECK(info.origin[0] == 0 && info.origin[1] == 0 && info.origin[2] == 0);
 
     OK(context, espCompileGrammar(context, &def, &grammar));
     CHECK(espParamCount(context, grammar) == 2);

@@ -221,6 +221,34 @@ TEST_CASE("a material whose colour was lost shows light and shadow, in any unit 
     CHECK(lightness(0.004f, {0.3f, 0.3f, 0.3f, 1}) == doctest::Approx(grey).epsilon(0.05));
 }
 
+TEST_CASE("colours of vertices multiply the material's, and their alpha cuts holes and shadows") {
+    Studio studio;
+    studio.inputs.growth = {};
+    SurfaceData data = wall(4, 2.6f);
+    data.materials[0] = {};  // white, which alone would count as lost
+    data.materials[0].coloured = true;
+    for (DrawVertex& v : data.vertices)
+        if (v.position.z == 0)
+            v.colour = packColour(v.position.y > 1 ? glm::vec4(0.8f, 0, 0, 1) : glm::vec4(0, 0.8f, 0, 1));
+    const auto picture = [&] {
+        REQUIRE(studio.renderer->setSurface(0, data, glm::mat4(1)));
+        return studio.draw(160, 90);
+    };
+    const auto at = [](const std::vector<uint8_t>& rgba, size_t x, size_t y) {
+        return glm::ivec3(rgba[(y * 160 + x) * 4], rgba[(y * 160 + x) * 4 + 1], rgba[(y * 160 + x) * 4 + 2]);
+    };
+    const auto coloured = picture();
+    const glm::ivec3 above = at(coloured, 80, 12), below = at(coloured, 80, 50);
+    CHECK(above.r > above.g + 20);
+    CHECK(below.g > below.r + 20);
+    // From half its height on the wall is cut away: the sky is seen there, and light falls through.
+    data.materials[0].alphaCutoff = 0.5f;
+    for (DrawVertex& v : data.vertices) v.colour = packColour({0.5f, 0.5f, 0.5f, v.position.y > 1 ? 0.0f : 1.0f});
+    const auto cut = picture();
+    CHECK(at(cut, 80, 12).b > at(cut, 80, 12).r);
+    CHECK(at(cut, 80, 12) != at(cut, 80, 50));
+}
+
 TEST_CASE("views without walk data fall back, and each differs from the shaded one") {
     Studio studio;
     const std::vector<uint8_t> shaded = studio.draw(160, 90);

@@ -212,6 +212,7 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     stages.begin(0.3f, "links");
     surface.boundsMin = glm::vec3(mesh->boundsMin);
     surface.boundsMax = glm::vec3(mesh->boundsMax);
+    surface.origin = report.origin = model.origin;
     surface.charts = makeCharts(*mesh);
     surface.triangles = makeRecords(*mesh);
     double tolerance = nearestTolerance(surface, options);

@@ -15,10 +15,13 @@ namespace espalier {
 struct Model {
     std::string name;                        // the file's path, for messages
     std::vector<glm::vec3> positions;        // metres, one a vertex
+    glm::dvec3 origin{0};                    // metres: what has been taken off the file's positions
     std::vector<glm::vec3> normals;          // same length, or empty
     std::vector<glm::vec2> uvs;              // the UV set that the walk's charts come from, same length, or empty;
                                              // NaN: this vertex has none
     std::vector<glm::vec2> materialUvs;      // same length, or empty: uvs
+    std::vector<glm::vec4> colours;          // linear, times the materials'; same length, or empty: white
+    std::vector<glm::vec2> otherUvs;         // same length, or empty: no material has textures in two UV sets
     std::vector<uint32_t> indices;           // three a triangle
     std::vector<uint32_t> triangleMaterial;  // one a triangle, or empty: material 0
     std::vector<Material> materials;
@@ -57,6 +60,10 @@ struct PieceReach {
     double area = 0;       // m² of its ground on the finest level
     double enclosed = 0;   // m² more that can't be got to and that no ray from outside meets
     double reachable = 0;  // m² of `area` in the part within which plants get from everywhere to everywhere
+    // Walks that began there, two radii long, and those of them that end where the model goes on.
+    uint32_t walks = 0, ended = 0;
+    // Of `area`: reachable, less the share of walks that end so.
+    double share() const;
 };
 
 // What a material covers, triangles without area aside.
@@ -69,6 +76,7 @@ struct MaterialArea {
 // The figures of a bake; see docs/surface_format.md for the meaning of each.
 struct BakeReport {
     std::string source;
+    glm::dvec3 origin{0};
     uint32_t triangles = 0, charts = 0;
     uint64_t innerTexels = 0, linkTexels = 0, openTexels = 0, buriedTexels = 0, bareTexels = 0;
     uint32_t seamCrossings = 0, nearestCrossings = 0, contactCrossings = 0, danglingCrossings = 0, danglingContacts = 0;
@@ -89,6 +97,7 @@ struct BakeReport {
     std::vector<Diagnostic> warnings;
     double reachableShare() const;  // of all pieces' ground; 1 where there is none
     double leastReachable() const;  // the least share of a piece that holds a thousandth of the ground or more
+    double endedWalks() const;      // share of all walks
     std::string json() const;
 };
 

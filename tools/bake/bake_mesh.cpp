@@ -91,6 +91,8 @@ Status checkModel(const Model& model) {
     if (model.indices.size() / 3 > kMaxTriangles) return Failure(name, "more than 67 million triangles");
     if ((!model.uvs.empty() && model.uvs.size() != n) || (!model.normals.empty() && model.normals.size() != n) ||
         (!model.materialUvs.empty() && model.materialUvs.size() != n) ||
+        (!model.colours.empty() && model.colours.size() != n) ||
+        (!model.otherUvs.empty() && model.otherUvs.size() != n) ||
         (!model.triangleMaterial.empty() && model.triangleMaterial.size() != model.indices.size() / 3))
         return Failure(name, "vertex arrays of unlike lengths");
     for (uint32_t i : model.indices)

@@ -44,7 +44,9 @@ void Contacts::dropHidden() {
             const Contact& c = list_[i];
             uint32_t fromBody = mesh_.triangles[c.from].body, toBody = mesh_.triangles[c.to].body;
             size_t parts = std::clamp(size_t(glm::length(c.b - c.a) / tolerance_), size_t(1), kMostParts);
+            const bool out = mesh_.lining[fromBody] != 0;  // from what is hidden anyway
             const auto asked = [&](bool far, glm::dvec3 p, bool crevices) {
+                if (out && !far) return false;
                 return far ? hidden(p, c.to, fromBody, crevices) : hidden(p, c.from, toBody, crevices);
             };
             const auto leads = [&](size_t k) {

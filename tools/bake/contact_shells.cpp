@@ -9,6 +9,7 @@ namespace espalier::bakery {
 namespace {
 
 constexpr double kBorderShift = 0.02;  // texels
+constexpr double kRemainder = 0.01;    // of an edge
 constexpr double kConcave = 3.05;      // radians: who turns less on the way around an edge comes to another piece
 
 // The half-edges of edges that more than two share, edge by edge, each as its edge's key and itself.
@@ -55,6 +56,12 @@ std::vector<uint32_t> pieceTwins(const BakeMesh& mesh) {
     return twin;
 }
 
+// Shells that borders join have one outside: not where a walk goes over to a back, nor by a remainder of an edge that
+// another border has left over.
+bool makesOneBody(const Link& link) {
+    return link.kind == kCrossingNearest && link.to0 > link.to1 && link.from1 - link.from0 > kRemainder;
+}
+
 }  // namespace
 
 Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, const Options& options)
@@ -70,7 +77,7 @@ Contacts::Contacts(const BakeMesh& mesh, const std::vector<Link>& links, const O
     if (shells_ < 2) return;
     DisjointSets bodies = shells;
     for (const Link& link : links)
-        if (link.kind == kCrossingNearest) bodies.join(link.from / 3, link.to / 3);
+        if (makesOneBody(link)) bodies.join(link.from / 3, link.to / 3);
     bodies.number(body);
     mesh_.points = mesh.points;
     if (mesh.crowdedEdges > 0) mesh_.seam = mesh.twin;

@@ -57,8 +57,10 @@ void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface)
         d.normal = length > 0 ? d.normal / length : glm::vec3(0, 1, 0);
         const auto& uvs = model.materialUvs.empty() ? model.uvs : model.materialUvs;
         glm::vec2 uv = uvs.empty() ? glm::vec2(0) : uvs[v];
-        bool finite = std::abs(uv.x) < 1e6f && std::abs(uv.y) < 1e6f;
-        d.uv = finite ? uv : glm::vec2(0);
+        const auto orZero = [](glm::vec2 p) { return std::abs(p.x) < 1e6f && std::abs(p.y) < 1e6f ? p : glm::vec2(0); };
+        d.uv = orZero(uv);
+        if (!model.otherUvs.empty()) d.otherUv = orZero(model.otherUvs[v]);
+        if (!model.colours.empty()) d.colour = packColour(model.colours[v]);
         if (corner != kNone) d.walkUv = glm::vec2(mesh.triangles[corner / 3].uv[corner % 3]);
         surface.vertices.push_back(d);
         return uint32_t(surface.vertices.size() - 1);
@@ -75,7 +77,8 @@ void makeDrawing(const Model& model, const BakeMesh& mesh, SurfaceData& surface)
         surface.ranges.back().indexCount += 3;
     }
     markBareTriangles(surface);
-    addTangents(surface.vertices, surface.indices);
+    markColoured(surface.vertices, surface.indices, surface.ranges, surface.materials);
+    addTangents(surface.vertices, surface.indices, surface.ranges, surface.materials);
 }
 
 }  // namespace espalier::bakery

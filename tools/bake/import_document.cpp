@@ -4,11 +4,10 @@
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
-#include "tools/bake/import.hpp"
+#include "tools/bake/import_gltf.hpp"
 
 #include <meshoptimizer.h>
 
-#include <array>
 #include <cstring>
 #include <filesystem>
 
@@ -214,37 +213,39 @@ Status loadViews(Document& document, const json& root) {
     return Done{};
 }
 
-Status checkRequired(const Document& document, const json& root) {
-    static constexpr std::array kKnown = {"KHR_draco_mesh_compression", "KHR_mesh_quantization",
-                                          "EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "ESPALIER_surface"};
-    // What changes how a model looks or moves, but not where its triangles are.
-    static constexpr std::array kHarmless = {"KHR_materials_", "KHR_texture_",   "EXT_texture_", "KHR_lights_",
-                                             "EXT_lights_",    "KHR_animation_", "KHR_xmp"};
-    const json* required = member(root, "extensionsRequired");
-    if (!required || !required->is_array()) return Done{};
-    for (const json& name : *required) {
-        if (!name.is_string()) continue;
-        std::string text = name.get<std::string>();
-        bool known = false;
-        for (const char* prefix : kHarmless) known = known || text.rfind(prefix, 0) == 0;
-        for (const char* k : kKnown) known = known || text == k;
-        if (!known) return Failure(document.path, "extensionsRequired: " + text + " is not supported");
+// What readSkin() asks for. tinygltf refuses a file for a skin that is damaged; it is only left out.
+void stripSkins(json& root) {
+    auto skins = root.find("skins");
+    if (skins == root.end()) return;
+    json kept = json::array();
+    for (const json& skin : skins->is_array() ? *skins : json::array()) {
+        json joints = json::array();
+        if (const json* all = member(skin, "joints"); all && all->is_array())
+            for (const json& joint : *all) joints.push_back(joint.is_number_integer() ? joint : json(-1));
+        kept.push_back({{"joints", std::move(joints)}});
+        const json* matrices = member(skin, "inverseBindMatrices");
+        if (matrices && matrices->is_number_integer()) kept.back()["inverseBindMatrices"] = *matrices;
     }
-    return Done{};
+    *skins = std::move(kept);
 }
 
 // Takes out of the text what tinygltf would load by itself.
 void strip(json& root) {
-    for (const char* key : {"buffers", "images", "animations", "skins", "cameras", "samplers", "extras"})
-        root.erase(key);
+    stripSkins(root);
+    for (const char* key : {"buffers", "images", "animations", "cameras", "samplers", "extras"}) root.erase(key);
     auto meshes = root.find("meshes");
     if (meshes == root.end() || !meshes->is_array()) return;
     for (json& mesh : *meshes) {
         if (!mesh.is_object() || !mesh.contains("primitives") || !mesh["primitives"].is_array()) continue;
         for (json& primitive : mesh["primitives"]) {
             if (!primitive.is_object()) continue;
-            primitive.erase("targets");
-            if (hasExtension(primitive, "KHR_draco_mesh_compression")) primitive.erase("indices");
+            // tinygltf refuses indices without a buffer view, which sparse ones and Draco's are: indicesOf() finds
+            // them.
+            primitive.erase("extras");
+            const json* indices = member(primitive, "indices");
+            if (!indices || !indices->is_number_integer()) continue;
+            if (!hasExtension(primitive, "KHR_draco_mesh_compression")) primitive["extras"] = {{"indices", *indices}};
+            primitive.erase("indices");
         }
     }
 }
@@ -321,7 +322,7 @@ Result<Document> openDocument(const std::string& path, Bytes file, Intake& intak
     if (root.is_discarded() || !root.is_object()) return Failure(path, "not glTF: the JSON does not parse");
     std::string version = root.contains("asset") ? textOf(root["asset"], "version") : std::string();
     if (version.rfind("2.", 0) != 0) return Failure(path, "not glTF 2.0: asset.version is '" + version + "'");
-    Status known = checkRequired(document, root);
+    Status known = judgeExtensions(root, document);
     if (!known) return std::move(known.failure());
     Status buffers = loadBuffers(document, root, std::move(binary));
     if (!buffers) return std::move(buffers.failure());

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "runtime/core/file.hpp"
+#include "runtime/core/file_beside.hpp"
 #include "runtime/core/hash.hpp"
 #include "runtime/surface/picture.hpp"
 #include "tools/bake/import.hpp"
@@ -74,15 +75,34 @@ Result<std::vector<uint8_t>> Intake::read(const std::string& path, const std::st
 }
 
 Result<std::vector<uint8_t>> Intake::readBeside(const std::string& document, const std::string& name) {
-    if (name.empty() || name.find("://") != std::string::npos || std::filesystem::path(name).is_absolute() ||
-        name.find('\0') != std::string::npos)
-        return Failure(document, "'" + name + "' is not a file beside the model");
-    return read((std::filesystem::path(document).parent_path() / name).string(), document);
+    auto place = placeBeside(document, name);
+    if (!place) return std::move(place.failure());
+    return read(place->string(), document);
+}
+
+bool Intake::isBeside(const std::string& document, const std::string& name) {
+    auto place = placeBeside(document, name);
+    std::error_code ignored;
+    if (!place || std::filesystem::is_regular_file(*place, ignored)) return bool(place);
+    if (inputs_) inputs_->push_back({place->string(), 0});
+    return false;
+}
+
+void Intake::note(const std::string& path) {
+    if (!inputs_) return;
+    auto bytes = readFile(path);
+    inputs_->push_back({path, bytes ? std::max<uint64_t>(hashBytes(*bytes), 1) : 0});
 }
 
 Result<Picture> readPicture(std::vector<uint8_t> bytes, const std::string& file, Intake& intake) {
     // Twice four bytes a texel, while it is decoded.
-    auto decoded = decodePicture(std::as_bytes(std::span(bytes)), file, intake.left() / 8);
+    const uint64_t most = intake.left() / 8;
+    if (isWebp(bytes)) {
+        auto decoded = decodeWebp(bytes, file, most);
+        if (decoded) intake.take(decoded->rgba.size());
+        return decoded;
+    }
+    auto decoded = decodePicture(std::as_bytes(std::span(bytes)), file, most);
     if (!decoded) return decoded;
     intake.take(decoded->rgba.size());
     decoded->encoded = std::move(bytes);

@@ -1,74 +1,15 @@
-// In: a document. Out: its materials as far as they are drawn, and the images that those use, decoded.
-// What is missing or damaged becomes a warning: a model without its textures can still be baked.
+// In: a document. Out: its materials as far as they are drawn, and the images that those use.
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "tools/bake/import.hpp"
+#include "tools/bake/import_gltf.hpp"
 
 namespace espalier::import {
 namespace {
 
-using nlohmann::json;
-
-Result<std::vector<uint8_t>> imageBytes(const Document& document, int index, const std::string& place) {
-    if (!document.images.is_array() || index < 0 || size_t(index) >= document.images.size() ||
-        !document.images[size_t(index)].is_object())
-        return Failure(document.path, place + " does not exist");
-    const json& image = document.images[size_t(index)];
-    if (image.contains("uri") && image["uri"].is_string()) return readUri(document, image["uri"].get<std::string>());
-    if (!image.contains("bufferView") || !image["bufferView"].is_number_unsigned() ||
-        image["bufferView"].get<uint64_t>() >= document.views.size())
-        return Failure(document.path, place + ": neither a file nor a buffer view");
-    Bytes bytes = document.views[image["bufferView"].get<size_t>()];
-    if (!document.intake->take(bytes.size()))
-        return Failure(document.path, place + ": absurdly much for a file of its size");
-    return std::vector<uint8_t>(bytes.begin(), bytes.end());
-}
-
-Result<Picture> decodeImage(const Document& document, int index) {
-    std::string place = "images[" + std::to_string(index) + "]";
-    auto bytes = imageBytes(document, index, place);
-    if (!bytes) return std::move(bytes.failure());
-    auto decoded = readPicture(std::move(*bytes), document.path, *document.intake);
-    if (!decoded) return Failure(document.path, place + ": " + decoded.failure().diagnostics.front().message);
-    return decoded;
-}
-
-// Decodes each image once, when a material first asks for it.
-class Images {
-  public:
-    Images(const Document& document, std::vector<Picture>& images, std::vector<Diagnostic>& warnings)
-        : document_(document), images_(images), warnings_(warnings) {}
-
-    int find(int texture) {
-        if (texture < 0) return -1;
-        if (size_t(texture) >= document_.gltf.textures.size()) {
-            warn("textures[" + std::to_string(texture) + "] does not exist");
-            return -1;
-        }
-        int source = document_.gltf.textures[size_t(texture)].source;
-        auto known = known_.find(source);
-        if (known != known_.end()) return known->second;
-        auto image = decodeImage(document_, source);
-        int index = -1;
-        if (image) {
-            index = int(images_.size());
-            images_.push_back(std::move(*image));
-        } else {
-            warn("texture left out: " + image.failure().diagnostics.front().message);
-        }
-        return known_[source] = index;
-    }
-
-  private:
-    void warn(std::string text) { warnings_.push_back({document_.path, 0, 0, {}, std::move(text), true}); }
-
-    const Document& document_;
-    std::vector<Picture>& images_;
-    std::vector<Diagnostic>& warnings_;
-    std::map<int, int> known_;
-};
+constexpr int kMaxUvSet = 7;
+constexpr float kBrightest = 1e4f;     // of emission: what a sun's picture would need
+constexpr float kDarkDiffuse = 0.04f;  // below it a material of specular and glossiness is a metal
 
 float number(const tinygltf::Value& object, const char* key, size_t index, float otherwise) {
     if (!object.IsObject() || !object.Has(key)) return otherwise;
@@ -78,26 +19,18 @@ float number(const tinygltf::Value& object, const char* key, size_t index, float
     return std::isfinite(d) ? float(d) : otherwise;
 }
 
-MaterialUv readTransform(const tinygltf::TextureInfo& info) {
-    MaterialUv out;
-    out.texCoord = info.texCoord;
-    auto it = info.extensions.find("KHR_texture_transform");
-    if (it == info.extensions.end()) return out;
-    const tinygltf::Value& t = it->second;
-    float ox = number(t, "offset", 0, 0), oy = number(t, "offset", 1, 0);
-    float sx = number(t, "scale", 0, 1), sy = number(t, "scale", 1, 1);
-    float r = number(t, "rotation", 0, 0), c = std::cos(r), s = std::sin(r);
-    out.texCoord = int(std::clamp(number(t, "texCoord", 0, float(info.texCoord)), 0.0f, 8.0f));
-    out.u = {c * sx, s * sy, ox};
-    out.v = {-s * sx, c * sy, oy};
-    return out;
+float finite(double value, double otherwise) {
+    return float(std::isfinite(value) ? value : otherwise);
+}
+
+const tinygltf::Value* extensionOf(const tinygltf::ExtensionMap& extensions, const char* name) {
+    auto it = extensions.find(name);
+    return it == extensions.end() ? nullptr : &it->second;
 }
 
 // Does it let anything be seen through? Cut-outs don't count: leaves and grilles are something to climb.
 bool isTransparent(const tinygltf::Material& from, const Material& m, const std::vector<Picture>& images) {
-    const auto transmission = from.extensions.find("KHR_materials_transmission");
-    if (transmission != from.extensions.end() && number(transmission->second, "transmissionFactor", 0, 0) > 0)
-        return true;
+    if (m.transmission > 0) return true;
     if (from.alphaMode != "BLEND") return false;
     if (m.baseColor.a < 1) return true;
     if (m.baseColorImage < 0) return false;
@@ -107,35 +40,147 @@ bool isTransparent(const tinygltf::Material& from, const Material& m, const std:
     return false;
 }
 
-float finite(double value, double otherwise) {
-    return float(std::isfinite(value) ? value : otherwise);
-}
+// One material on its way: its textures keep the sets that the file names until all are known.
+class Reader {
+  public:
+    Reader(const Document& document, const tinygltf::Material& from, Textures& textures, Model& model)
+        : document_(document), from_(from), textures_(textures), model_(model) {}
+
+    Material run(MaterialUv& uv) {
+        if (const auto* old = extensionOf(from_.extensions, "KHR_materials_pbrSpecularGlossiness"))
+            readSpecularGlossiness(*old);
+        else
+            readMetallicRoughness();
+        take(from_.normalTexture.index, from_.normalTexture.texCoord, from_.normalTexture.extensions, m_.normalImage,
+             m_.normalMap);
+        m_.normalScale = finite(from_.normalTexture.scale, 1);
+        m_.doubleSided = from_.doubleSided;
+        readEmission();
+        readTransparency();
+        shareMaps(uv);
+        return m_;
+    }
+
+  private:
+    void warn(std::string text) {
+        const std::string name = from_.name.empty() ? "" : " '" + from_.name + "'";
+        model_.warnings.push_back({document_.path, 0, 0, {}, "material" + name + ": " + std::move(text), true});
+    }
+
+    void readMetallicRoughness() {
+        const auto& pbr = from_.pbrMetallicRoughness;
+        for (size_t i = 0; i < 4 && i < pbr.baseColorFactor.size(); ++i)
+            m_.baseColor[int(i)] = finite(pbr.baseColorFactor[i], 1);
+        take(pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord, pbr.baseColorTexture.extensions,
+             m_.baseColorImage, m_.baseColorMap);
+        m_.roughness = std::clamp(finite(pbr.roughnessFactor, 1), 0.0f, 1.0f);
+    }
+
+    // What is diffuse there is the base colour of what is no metal; metals have none, and shine in their specular one.
+    void readSpecularGlossiness(const tinygltf::Value& old) {
+        for (size_t i = 0; i < 4; ++i) m_.baseColor[int(i)] = number(old, "diffuseFactor", i, 1);
+        float glossiness = std::clamp(number(old, "glossinessFactor", 0, 1), 0.0f, 1.0f);
+        if (old.IsObject() && old.Get("specularGlossinessTexture").IsObject())
+            glossiness *= textures_.meanOf(int(number(old.Get("specularGlossinessTexture"), "index", 0, -1))).a;
+        m_.roughness = 1 - glossiness;
+        if (old.IsObject() && old.Get("diffuseTexture").IsObject()) {
+            const tinygltf::Value& info = old.Get("diffuseTexture");
+            tinygltf::ExtensionMap extensions;
+            if (info.Get("extensions").Has("KHR_texture_transform"))
+                extensions["KHR_texture_transform"] = info.Get("extensions").Get("KHR_texture_transform");
+            take(int(number(info, "index", 0, -1)), int(number(info, "texCoord", 0, 0)), extensions, m_.baseColorImage,
+                 m_.baseColorMap);
+        }
+        const glm::vec3 specular(number(old, "specularFactor", 0, 1), number(old, "specularFactor", 1, 1),
+                                 number(old, "specularFactor", 2, 1));
+        const float diffuse = std::max({m_.baseColor.r, m_.baseColor.g, m_.baseColor.b});
+        const float shine = std::max({specular.r, specular.g, specular.b});
+        if (diffuse < kDarkDiffuse && shine > diffuse && m_.baseColorImage < 0)
+            m_.baseColor = glm::vec4(specular, m_.baseColor.a);
+    }
+
+    void readEmission() {
+        float strength = 1;
+        if (const auto* more = extensionOf(from_.extensions, "KHR_materials_emissive_strength"))
+            strength = number(*more, "emissiveStrength", 0, 1);
+        for (size_t i = 0; i < 3 && i < from_.emissiveFactor.size(); ++i)
+            m_.emissive[int(i)] = std::clamp(finite(from_.emissiveFactor[i], 0) * strength, 0.0f, kBrightest);
+        if (m_.emissive == glm::vec3(0)) return;
+        const auto& texture = from_.emissiveTexture;
+        take(texture.index, texture.texCoord, texture.extensions, m_.emissiveImage, m_.emissiveMap);
+        // A texture that is lost would leave all of it shining.
+        if (texture.index >= 0 && m_.emissiveImage < 0) m_.emissive = glm::vec3(0);
+    }
+
+    void readTransparency() {
+        if (from_.alphaMode == "MASK") m_.alphaCutoff = finite(from_.alphaCutoff, 0.5);
+        if (const auto* glass = extensionOf(from_.extensions, "KHR_materials_transmission")) {
+            m_.transmission = std::clamp(number(*glass, "transmissionFactor", 0, 0), 0.0f, 1.0f);
+            if (m_.transmission > 0 && glass->Has("transmissionTexture"))
+                warn("its texture of transmission is not read: all of it lets light through");
+        }
+        m_.bare = m_.blended = isTransparent(from_, m_, model_.images);
+    }
+
+    // The image of a texture, and its map, `set` being a TEXCOORD still.
+    void take(int texture, int texCoord, const tinygltf::ExtensionMap& extensions, int& image, TextureMap& map) {
+        image = textures_.find(texture);
+        if (image < 0) return;
+        if (const auto* moved = extensionOf(extensions, "KHR_texture_transform")) {
+            map.offset = {number(*moved, "offset", 0, 0), number(*moved, "offset", 1, 0)};
+            map.scale = {number(*moved, "scale", 0, 1), number(*moved, "scale", 1, 1)};
+            map.rotation = number(*moved, "rotation", 0, 0);
+            texCoord = int(std::clamp(number(*moved, "texCoord", 0, float(texCoord)), -1.0f, kMaxUvSet + 1.0f));
+        }
+        if (texCoord < 0 || texCoord > kMaxUvSet) {
+            warn("a texCoord is beyond 7: TEXCOORD_0 is taken");
+            texCoord = 0;
+        }
+        map.set = uint32_t(texCoord);
+        maps_.push_back(&map);
+    }
+
+    // A map that all textures share is applied to the vertices. Otherwise these keep two sets as they are.
+    void shareMaps(MaterialUv& uv) {
+        if (maps_.empty()) return;
+        const TextureMap first = *maps_.front();
+        uv.texCoord = int(first.set);
+        if (std::ranges::all_of(maps_, [&](const TextureMap* map) { return *map == first; })) {
+            const auto rows = rowsOf(first);
+            uv.u = rows[0], uv.v = rows[1];
+            for (TextureMap* map : maps_) *map = TextureMap();
+            return;
+        }
+        for (TextureMap* map : maps_) {
+            const int set = int(map->set);
+            if (set != uv.texCoord && uv.other < 0) uv.other = set;
+            if (set != uv.texCoord && set != uv.other)
+                warn("its textures lie in more than two UV sets: TEXCOORD_" + std::to_string(uv.texCoord) +
+                     " is taken for TEXCOORD_" + std::to_string(set));
+            map->set = set == uv.other ? 1 : 0;
+        }
+    }
+
+    const Document& document_;
+    const tinygltf::Material& from_;
+    Textures& textures_;
+    Model& model_;
+    Material m_;
+    std::vector<TextureMap*> maps_;  // of textures that were found
+};
 
 }  // namespace
 
 void readMaterials(const Document& document, Model& model, std::vector<MaterialUv>& uvs) {
-    std::vector<Material>& materials = model.materials;
-    Images found(document, model.images, model.warnings);
+    Textures textures(document, model.images, model.warnings);
     for (const tinygltf::Material& from : document.gltf.materials) {
-        Material m;
-        const auto& pbr = from.pbrMetallicRoughness;
-        for (size_t i = 0; i < 4 && i < pbr.baseColorFactor.size(); ++i)
-            m.baseColor[int(i)] = finite(pbr.baseColorFactor[i], 1);
-        m.baseColorImage = found.find(pbr.baseColorTexture.index);
-        m.normalImage = found.find(from.normalTexture.index);
-        m.normalScale = finite(from.normalTexture.scale, 1);
-        m.roughness = std::clamp(finite(pbr.roughnessFactor, 1), 0.0f, 1.0f);
-        m.doubleSided = from.doubleSided;
-        // Blending is drawn as a cut-out at one half.
-        if (from.alphaMode == "MASK") m.alphaCutoff = finite(from.alphaCutoff, 0.5);
-        if (from.alphaMode == "BLEND" && m.baseColorImage >= 0) m.alphaCutoff = 0.5f;
-        m.bare = isTransparent(from, m, model.images);
-        materials.push_back(m);
+        MaterialUv uv;
+        model.materials.push_back(Reader(document, from, textures, model).run(uv));
         model.materialNames.push_back(from.name);
-        uvs.push_back(readTransform(pbr.baseColorTexture));
+        uvs.push_back(uv);
     }
-    if (materials.empty()) {
-        materials.emplace_back();
+    if (model.materials.empty()) {
+        model.materials.emplace_back();
         model.materialNames.emplace_back();
         uvs.emplace_back();
     }

@@ -2,6 +2,8 @@
 #include <filesystem>
 
 #include "tools/bake/import.hpp"
+#include "tools/bake/import_foreign.hpp"
+#include "tools/bake/import_kind.hpp"
 
 namespace espalier {
 namespace {
@@ -22,17 +24,35 @@ std::string endingOf(std::filesystem::path path) {
     return small(path.extension().string());
 }
 
+bool isPly(Bytes file) {
+    return startsWith(file, "ply\n") || startsWith(file, "ply\r");
+}
+
+Status importAs(const std::string& ending, const std::string& path, Bytes file, const ImportOptions& options,
+                Intake& intake, Model& model) {
+    if (ending == ".gltf" || ending == ".glb") return importGltf(path, file, options, intake, model);
+    if (ending == ".obj") return importObj(path, file, options, intake, model);
+    if (ending == ".stl") return importStl(path, file, options, model);
+    if (ending != ".ply") return Failure(path, "neither glTF (.gltf, .glb) nor OBJ, PLY or STL");
+    if (!isPly(file)) return Failure(path, "not PLY: the file does not begin with 'ply'");
+    return importPly(path, file, options, intake, model);
+}
+
+// What a file holds tells its format, and its name only where that doesn't.
 Status importAny(const std::string& path, Bytes file, const ImportOptions& options, Intake& intake, Model& model) {
-    std::string ending = options.as.empty() ? endingOf(path) : options.as;
-    if (startsWith(file, "ply\n") || startsWith(file, "ply\r")) return importPly(path, file, model);
-    if (startsWith(file, "glTF") || ending == ".gltf" || ending == ".glb")
-        return importGltf(path, file, options, intake, model);
-    if (ending == ".ply") return Failure(path, "not PLY: the file does not begin with 'ply'");
-    if (ending == ".obj") return importObj(path, file, intake, model);
+    if (!options.as.empty()) return importAs(options.as, path, file, options, intake, model);
+    const auto as = [&](const std::string& ending) { return importAs(ending, path, file, options, intake, model); };
+    if (isPly(file)) return as(".ply");
+    if (const FileKind* kind = kindOf(file)) {
+        if (kind->reader == ReadBy::stl) return as(".stl");
+        if (kind->reader == ReadBy::assimp) return importForeign(path, file, *kind, options, intake, model);
+        return Failure(path, std::string("the file is ") + kind->name + ": " + kind->advice);
+    }
+    if (startsWith(file, "glTF")) return as(".glb");
     size_t first = 0;
     while (first < file.size() && (file[first] == ' ' || (file[first] >= 9 && file[first] <= 13))) ++first;
-    if (startsWith(file.subspan(first), "{")) return importGltf(path, file, options, intake, model);
-    return Failure(path, "neither glTF (.gltf, .glb) nor OBJ nor PLY");
+    if (startsWith(file.subspan(first), "{")) return as(".gltf");
+    return as(looksLikeObj(file) ? ".obj" : endingOf(path));
 }
 
 }  // namespace

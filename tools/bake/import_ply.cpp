@@ -1,227 +1,90 @@
-// In: a PLY file (text, or binary of either byte order). Out: its polygons as triangles, with the vertices' normals and
-// UVs where it has them. Elements and properties that we don't know are passed over; what reaches past the file's end
-// or names vertices that aren't there is an error at a line of the text, or at a byte of the binary part.
+// In: a PLY file (text, or binary of either byte order). Out: its polygons and strips as triangles, with normals, UVs,
+// colours and pictures where it has them. Elements and properties that we don't know are passed over; what reaches past
+// the file's end or names vertices that aren't there is an error at a line of the text, or at a byte of the binary
+// part.
+#include <algorithm>
 #include <array>
-#include <cstring>
-#include <limits>
+#include <bit>
 
-#include "tools/bake/import.hpp"
-#include "tools/bake/import_text.hpp"
+#include "tools/bake/import_ply_file.hpp"
+#include "tools/bake/import_polygons.hpp"
 
 namespace espalier::import {
 namespace {
 
-enum class Type : uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-constexpr size_t kSize[8] = {1, 1, 2, 2, 4, 4, 4, 8};
-constexpr size_t kMaxList = 1 << 16;  // corners of a face
+// A vertex's properties that are read, by their place in a row: position, normal, UV, colour.
+constexpr size_t kNormal = 3, kUv = 6, kColour = 8, kAlpha = 11, kSlots = 12;
+constexpr std::array<PlyNames, kSlots> kVertexNames = {{{"x"},
+                                                        {"y"},
+                                                        {"z"},
+                                                        {"nx"},
+                                                        {"ny"},
+                                                        {"nz"},
+                                                        {"u", "s", "texture_u"},
+                                                        {"v", "t", "texture_v"},
+                                                        {"red", "diffuse_red", "r"},
+                                                        {"green", "diffuse_green", "g"},
+                                                        {"blue", "diffuse_blue", "b"},
+                                                        {"alpha", "diffuse_alpha", "a"}}};
 
-bool typeOf(std::string_view word, Type& out) {
-    static constexpr std::array<std::array<std::string_view, 2>, 8> kNames = {{{"char", "int8"},
-                                                                               {"uchar", "uint8"},
-                                                                               {"short", "int16"},
-                                                                               {"ushort", "uint16"},
-                                                                               {"int", "int32"},
-                                                                               {"uint", "uint32"},
-                                                                               {"float", "float32"},
-                                                                               {"double", "float64"}}};
-    for (size_t i = 0; i < kNames.size(); ++i)
-        if (word == kNames[i][0] || word == kNames[i][1]) {
-            out = Type(i);
-            return true;
-        }
-    return false;
-}
+constexpr double kUnsignedRestart = 4294967295.0;  // what -1 is as an unsigned number
 
-struct Property {
-    std::string name;
-    bool list = false;
-    Type count = Type::uint8, type = Type::float32;
-};
-
-struct Element {
-    std::string name;
-    uint64_t count = 0;
-    std::vector<Property> properties;
-};
-
-enum class Format { text, littleEndian, bigEndian };
-
-// Reads the header, then hands out one number after the other.
-class PlyFile {
-  public:
-    PlyFile(const std::string& path, Bytes file)
-        : path_(path), text_(reinterpret_cast<const char*>(file.data()), file.size()) {}
-
-    std::vector<Element> elements;
-
-    Status readHeader() {
-        bool hasFormat = false;
-        for (;;) {
-            if (at_ >= text_.size()) return here("the header has no end_header");
-            std::string_view line = nextLine(), rest = line, key = nextWord(rest);
-            if (key == "end_header") break;
-            hasFormat = hasFormat || key == "format";
-            Status done = statement(key, rest);
-            if (!done) return done;
-        }
-        if (!hasFormat) return here("the header states no format");
-        return Done{};
-    }
-
-    bool isText() const { return format_ == Format::text; }
-    size_t bytesLeft() const { return text_.size() - at_; }
-
-    // The next number of the body.
-    bool next(Type type, double& value) {
-        if (format_ == Format::text) return nextText(value);
-        size_t size = kSize[size_t(type)];
-        if (bytesLeft() < size) return false;
-        uint8_t bytes[8];
-        std::memcpy(bytes, text_.data() + at_, size);
-        if (format_ == Format::bigEndian) std::reverse(bytes, bytes + size);
-        at_ += size;
-        value = decode(bytes, type);
-        return true;
-    }
-
-    // A failure at the place that has been reached.
-    Failure here(std::string message) const {
-        if (format_ == Format::text) return Failure(Diagnostic{path_, line_, 0, {}, std::move(message)});
-        return Failure(path_, "byte " + std::to_string(at_) + ": " + message);
-    }
-
-  private:
-    std::string_view nextLine() {
-        // Old Macintosh files end their lines with a carriage return alone.
-        size_t end = text_.find_first_of("\r\n", at_);
-        if (end != text_.npos && text_.substr(end, 2) == "\r\n") ++end;
-        std::string_view line = text_.substr(at_, end == text_.npos ? end : end - at_);
-        at_ = end == text_.npos ? text_.size() : end + 1;
-        ++line_;
-        return trimmed(line);
-    }
-
-    bool nextText(double& value) {
-        while (at_ < text_.size() && (isBlank(text_[at_]) || text_[at_] == '\n')) line_ += text_[at_++] == '\n';
-        size_t end = at_;
-        while (end < text_.size() && !isBlank(text_[end]) && text_[end] != '\n') ++end;
-        bool good = toNumber(text_.substr(at_, end - at_), value);
-        at_ = end;
-        return good;
-    }
-
-    static double decode(const uint8_t* bytes, Type type) {
-        auto as = [&](auto value) {
-            std::memcpy(&value, bytes, sizeof value);
-            return double(value);
-        };
-        switch (type) {
-            case Type::int8:
-                return as(int8_t());
-            case Type::uint8:
-                return as(uint8_t());
-            case Type::int16:
-                return as(int16_t());
-            case Type::uint16:
-                return as(uint16_t());
-            case Type::int32:
-                return as(int32_t());
-            case Type::uint32:
-                return as(uint32_t());
-            case Type::float32:
-                return as(float());
-            case Type::float64:
-                break;
-        }
-        return as(double());
-    }
-
-    Status statement(std::string_view key, std::string_view rest) {
-        if (key == "format") return format(rest);
-        if (key == "element") return element(rest);
-        if (key == "property") return property(rest);
-        return Done{};  // comments
-    }
-
-    Status format(std::string_view rest) {
-        std::string_view name = nextWord(rest), version = nextWord(rest);
-        if (version != "1.0") return here("format version '" + std::string(version.substr(0, 20)) + "' instead of 1.0");
-        if (name == "ascii")
-            stated_ = Format::text;
-        else if (name == "binary_little_endian")
-            stated_ = Format::littleEndian;
-        else if (name == "binary_big_endian")
-            stated_ = Format::bigEndian;
-        else
-            return here("unknown format '" + std::string(name.substr(0, 40)) + "'");
-        return Done{};
-    }
-
-    Status element(std::string_view rest) {
-        Element out;
-        out.name = nextWord(rest);
-        long long count = -1;
-        if (!toInteger(nextWord(rest), count) || count < 0) return here("element " + out.name + ": no count");
-        out.count = uint64_t(count);
-        elements.push_back(std::move(out));
-        return Done{};
-    }
-
-    Status property(std::string_view rest) {
-        Property out;
-        std::string_view type = nextWord(rest);
-        out.list = type == "list";
-        if (out.list && (!typeOf(nextWord(rest), out.count) || out.count >= Type::float32))
-            return here("a list's count is no whole number");
-        if (!typeOf(out.list ? nextWord(rest) : type, out.type)) return here("a property of an unknown type");
-        out.name = nextWord(rest);
-        if (elements.empty()) return here("a property before the first element");
-        elements.back().properties.push_back(std::move(out));
-        return Done{};
-    }
-
-  public:
-    // From here on numbers come from the body.
-    void enterBody() { format_ = stated_, ++line_; }
-
-  private:
-    const std::string& path_;
-    std::string_view text_;
-    size_t at_ = 0;
-    int line_ = 0;
-    Format format_ = Format::text, stated_ = Format::text;  // the header is text in each
-};
-
-// Where a vertex's property goes: 0 to 2 the position, 3 to 5 the normal, 6 and 7 the UV; -1: nowhere.
-int slotOf(std::string_view name) {
-    static constexpr std::string_view kNames[3][8] = {{"x", "y", "z", "nx", "ny", "nz", "u", "v"},
-                                                      {"", "", "", "", "", "", "s", "t"},
-                                                      {"", "", "", "", "", "", "texture_u", "texture_v"}};
-    for (const auto& row : kNames)
-        for (int i = 0; i < 8; ++i)
-            if (name == row[i]) return i;
-    return -1;
+// Whole numbers of 8 and 16 bits are shares of the most that they can be.
+double shareOf(double value, PlyType type) {
+    return type == PlyType::uint8 ? value / 255 : type == PlyType::uint16 ? value / 65535 : value;
 }
 
 class PlyReader {
   public:
-    PlyReader(const std::string& path, Bytes file, Model& model) : path_(path), file_(path, file), model_(model) {}
+    PlyReader(const std::string& path, Bytes file, const ImportOptions& options, Intake& intake, Model& model)
+        : path_(path), options_(options), intake_(intake), file_(path, file), model_(model), blemishes_(path) {}
 
     Status run() {
         Status done = file_.readHeader();
         if (!done) return done;
-        file_.enterBody();
-        for (const Element& element : file_.elements) {
+        readTextures();
+        splits_ = std::ranges::any_of(file_.elements, [](const PlyElement& element) {
+            return element.name == "face" &&
+                   (element.find({"texcoord"}) >= 0 || element.find(kVertexNames[kColour]) >= 0);
+        });
+        for (const PlyElement& element : file_.elements) {
             done = read(element);
             if (!done) return done;
         }
-        if (model_.indices.empty()) return Failure(path_, strips_ ? "its faces are strips" : "the file holds no faces");
-        model_.materials.emplace_back();
+        if (polygons_.empty()) return Failure(path_, "the file holds no faces");
+        for (const glm::dvec3& p : positions_)
+            if (!isPlace(p)) blemishes_.note("a vertex whose position is not a number, named by no face");
+        // Not every element of vertices need have them.
+        if (model_.normals.size() != positions_.size()) model_.normals.clear();
+        if (model_.uvs.size() != positions_.size()) model_.uvs.clear();
+        if (model_.colours.size() != positions_.size()) model_.colours.clear();
+        if (splits_) takeSplitVertices();
+        settle(splits_ ? places_ : positions_, polygons_.corners(), options_.origin, model_);
+        polygons_.fill(model_);
+        makeColoursLinear(model_);
+        if (model_.materials.empty()) model_.materials.emplace_back();
+        if (model_.materials.size() == 1) model_.triangleMaterial.clear();
+        blemishes_.tell(model_);
         return Done{};
     }
 
   private:
-    Status read(const Element& element) {
+    void readTextures() {
+        for (const std::string& name : file_.textures) {
+            model_.materials.emplace_back();
+            model_.materialNames.push_back(name);
+            auto bytes = intake_.readBeside(path_, name);
+            auto decoded = bytes ? readPicture(std::move(*bytes), name, intake_) : Result<Picture>(bytes.failure());
+            if (!decoded) {
+                blemishes_.note("texture left out: " + decoded.failure().diagnostics.front().message);
+                continue;
+            }
+            model_.materials.back().baseColorImage = int(model_.images.size());
+            model_.images.push_back(std::move(*decoded));
+        }
+    }
+
+    Status read(const PlyElement& element) {
         // A number takes a byte at least, or a digit and a blank.
         uint64_t smallest = element.properties.size() * (file_.isText() ? 2 : 1);
         if (smallest == 0) return Done{};
@@ -229,97 +92,229 @@ class PlyReader {
             return file_.here("the file ends before the " + std::to_string(element.count) + " elements '" +
                               element.name + "' that its header states");
         if (element.name == "vertex") return readVertices(element);
-        if (element.name == "tristrips") strips_ = true;
-        bool faces = element.name == "face";
+        if (element.name == "face") return readFaces(element);
+        if (element.name == "tristrips") return readStrips(element);
+        for (uint64_t i = 0; i < element.count; ++i)
+            if (!readRow(element, {}, nullptr)) return cut(element, i);
+        return Done{};
+    }
+
+    Failure cut(const PlyElement& element, uint64_t i) {
+        return file_.here(element.name + " " + std::to_string(i) + ": the file ends or holds no number here");
+    }
+
+    // Reads all properties of an element. slots: where single numbers go in `values`, by property; -1: nowhere. Lists
+    // go into lists_. False: the file ends, or holds no number.
+    bool readRow(const PlyElement& element, std::span<const int> slots, double* values) {
+        lists_.resize(std::max(lists_.size(), element.properties.size()));
+        for (size_t k = 0; k < element.properties.size(); ++k) {
+            const PlyProperty& property = element.properties[k];
+            double value = 0;
+            if (property.list) {
+                if (!readList(property, lists_[k])) return false;
+            } else {
+                if (!file_.next(property.type, value)) return false;
+                if (k < slots.size() && slots[k] >= 0) values[slots[k]] = value;
+            }
+        }
+        return true;
+    }
+
+    bool readList(const PlyProperty& property, std::vector<double>& list) {
+        list.clear();
+        double count = 0, value = 0;
+        if (!file_.next(property.count, count) || !(count >= 0) || count > double(file_.bytesLeft())) return false;
+        for (uint64_t i = 0; i < uint64_t(count); ++i) {
+            if (!file_.next(property.type, value)) return false;
+            list.push_back(value);
+        }
+        return true;
+    }
+
+    Status readVertices(const PlyElement& element) {
+        if (element.count > kMaxVertices) return Failure(path_, "more than 67 million vertices");
+        std::vector<int> slots(element.properties.size(), -1);
+        std::array<PlyType, kSlots> types{};
+        uint32_t has = 0;
+        for (size_t slot = 0; slot < kSlots; ++slot) {
+            const int at = element.find(kVertexNames[slot]);
+            if (at < 0 || element.properties[size_t(at)].list) continue;
+            slots[size_t(at)] = int(slot);
+            types[slot] = element.properties[size_t(at)].type;
+            has |= 1u << slot;
+        }
+        const auto hasAll = [&](uint32_t mask) { return (has & mask) == mask; };
+        if (!hasAll(7u)) return Failure(path_, "vertices have no x, y and z");
+        const bool normals = hasAll(7u << kNormal), uvs = hasAll(3u << kUv), colours = hasAll(7u << kColour);
         for (uint64_t i = 0; i < element.count; ++i) {
-            Status done = readOther(element, faces, i);
+            double v[kSlots] = {};
+            v[kAlpha] = 1;
+            if (!readRow(element, slots, v)) return cut(element, i);
+            positions_.push_back({v[0], v[1], v[2]});
+            if (normals) model_.normals.push_back(direction({float(v[3]), float(v[4]), float(v[5])}));
+            if (uvs) model_.uvs.push_back(uv(v[6], v[7]));
+            if (!colours) continue;
+            for (size_t k = kColour; k < kAlpha; ++k) v[k] = shareOf(v[k], types[k]);
+            if (has >> kAlpha & 1u) v[kAlpha] = shareOf(v[kAlpha], types[kAlpha]);
+            model_.colours.push_back({float(v[8]), float(v[9]), float(v[10]), float(v[11])});
+        }
+        return Done{};
+    }
+
+    glm::vec3 direction(glm::vec3 n) {
+        float length = glm::length(n);
+        if (!std::isfinite(length))
+            blemishes_.note("a normal that is not a number: it is made from the faces", file_.line());
+        return length > 0 && std::isfinite(length) ? n / length : glm::vec3(0);
+    }
+
+    // As in OBJ, v counts upwards.
+    glm::vec2 uv(double u, double v) {
+        if (std::isfinite(float(u)) && std::isfinite(float(v))) return {float(u), 1 - float(v)};
+        blemishes_.note("a texture coordinate that is not a number: its vertex has none", file_.line());
+        return glm::vec2(kNotGiven);
+    }
+
+    Status takeVertex(const char* what, uint64_t number, double index, uint32_t& out) {
+        const std::string place = what + (" " + std::to_string(number) + ": vertex ");
+        if (!(index >= 0) || index >= double(positions_.size()) || index != std::floor(index))
+            return file_.here(place + std::to_string((long long)(std::abs(index) < 1e15 ? index : -1)) +
+                              " does not exist: the file has " + std::to_string(positions_.size()));
+        out = uint32_t(index);
+        if (!isPlace(positions_[out]))
+            return file_.here(place + std::to_string(out) + " has a position that is not a number of sane size");
+        return Done{};
+    }
+
+    Status readFaces(const PlyElement& element) {
+        const int corners = element.find({"vertex_indices", "vertex_index"}), uvs = element.find({"texcoord"});
+        const int texture = element.find({"texnumber"});
+        std::vector<int> slots(element.properties.size(), -1);
+        PlyType types[3] = {};
+        int colours = 0;
+        for (int k = 0; k < 3; ++k)
+            if (const int at = element.find(kVertexNames[kColour + size_t(k)]); at >= 0)
+                slots[size_t(at)] = k, types[k] = element.properties[size_t(at)].type, ++colours;
+        if (texture >= 0) slots[size_t(texture)] = 3;
+        if (corners < 0 || !element.properties[size_t(corners)].list) return file_.here("faces have no vertex_indices");
+        const bool hasUvs = uvs >= 0 && element.properties[size_t(uvs)].list;
+        for (uint64_t i = 0; i < element.count; ++i) {
+            double values[4] = {};
+            if (!readRow(element, slots, values)) return cut(element, i);
+            for (int k = 0; k < 3; ++k) values[k] = shareOf(values[k], types[k]);
+            uint32_t colour = colours == 3 ? packed(values) : 0;
+            Status done = face("face", i, lists_[size_t(corners)], hasUvs ? &lists_[size_t(uvs)] : nullptr, colour,
+                               materialOf(values[3]));
             if (!done) return done;
         }
         return Done{};
     }
 
-    Failure cut(const Element& element, uint64_t i) {
-        return file_.here(element.name + " " + std::to_string(i) + ": the file ends or holds no number here");
+    static uint32_t packed(const double* share) {
+        uint32_t out = 0xFF000000u;
+        for (uint32_t k = 0; k < 3; ++k) {
+            // Of faces, too, some files have floats from 0 to 255.
+            const double value = share[k] > 1 ? share[k] : share[k] * 255;
+            out |= uint32_t(std::clamp(std::isfinite(value) ? value : 255.0, 0.0, 255.0) + 0.5) << (8 * k);
+        }
+        return out;
     }
 
-    Status readVertices(const Element& element) {
-        if (element.count > kMaxVertices) return Failure(path_, "more than 67 million vertices");
-        std::vector<int> slots;
-        uint32_t has = 0;
-        for (const Property& p : element.properties) {
-            slots.push_back(p.list ? -1 : slotOf(p.name));
-            if (slots.back() >= 0) has |= 1u << slots.back();
+    uint32_t materialOf(double number) {
+        if (number >= 0 && number < double(std::max<size_t>(model_.materials.size(), 1))) return uint32_t(number);
+        if (number >= 0) blemishes_.note("a face with a texture that no comment names", file_.line());
+        return 0;
+    }
+
+    // what: the element's name, for messages.
+    Status face(const char* what, uint64_t number, std::span<const double> corners, const std::vector<double>* uvs,
+                uint32_t colour, uint32_t material) {
+        polygon_.clear();
+        const bool whole = uvs && uvs->size() == corners.size() * 2;
+        if (uvs && !whole && !uvs->empty())
+            blemishes_.note("a face without two texture coordinates a corner", file_.line());
+        for (size_t k = 0; k < corners.size(); ++k) {
+            uint32_t vertex = 0;
+            Status done = takeVertex(what, number, corners[k], vertex);
+            if (!done) return done;
+            if (splits_) {
+                Corner corner{vertex, -1, -1, colour};
+                if (whole) corner.uv = std::bit_cast<int64_t>(uv((*uvs)[2 * k], (*uvs)[2 * k + 1]));
+                vertex = vertices_.try_emplace(corner, uint32_t(vertices_.size())).first->second;
+            }
+            polygon_.push_back(vertex);
         }
-        if ((has & 7u) != 7u) return Failure(path_, "vertices have no x, y and z");
-        bool normals = (has & 0x38u) == 0x38u, uvs = (has & 0xC0u) == 0xC0u;
+        if (polygon_.size() < 3)
+            blemishes_.note("a face of fewer than 3 corners left out", file_.line());
+        else
+            polygons_.add(polygon_, material);
+        return Done{};
+    }
+
+    // Each triangle of a strip shares two corners with the one before it, and turns the other way; -1 begins anew.
+    Status readStrips(const PlyElement& element) {
+        const int corners = element.find({"vertex_indices", "vertex_index"});
+        if (corners < 0 || !element.properties[size_t(corners)].list)
+            return file_.here("strips have no vertex_indices");
         for (uint64_t i = 0; i < element.count; ++i) {
-            float values[8] = {};
-            for (size_t k = 0; k < slots.size(); ++k) {
-                double value = 0;
-                if (!readProperty(element.properties[k], value, nullptr)) return cut(element, i);
-                if (slots[k] < 0) continue;
-                values[slots[k]] = float(value);
-                if (slots[k] < 3 && !std::isfinite(float(value)))
-                    return file_.here("vertex " + std::to_string(i) + ": a position is not a number");
+            if (!readRow(element, {}, nullptr)) return cut(element, i);
+            const std::vector<double>& strip = lists_[size_t(corners)];
+            for (size_t k = 0, first = 0; k < strip.size(); ++k) {
+                if (strip[k] < 0 || strip[k] == kUnsignedRestart) first = k + 1;
+                if (k < first + 2) continue;
+                double a = strip[k - 2], b = strip[k - 1], c = strip[k];
+                if (a == b || b == c || c == a) continue;  // leads on to another place
+                if ((k - first) % 2 != 0) std::swap(a, b);
+                const double triangle[3] = {a, b, c};
+                Status done = face("tristrips", i, triangle, nullptr, 0, 0);
+                if (!done) return done;
             }
-            model_.positions.push_back({values[0], values[1], values[2]});
-            if (normals) model_.normals.push_back(normalised({values[3], values[4], values[5]}));
-            if (uvs) model_.uvs.push_back({values[6], 1 - values[7]});  // as OBJ, v counts upwards
         }
         return Done{};
     }
 
-    static glm::vec3 normalised(glm::vec3 n) {
-        float length = glm::length(n);
-        return length > 0 && std::isfinite(length) ? n / length : glm::vec3(0);
-    }
-
-    // One number, or a list (put into `list` where that is wanted).
-    bool readProperty(const Property& property, double& value, std::vector<double>* list) {
-        if (!property.list) return file_.next(property.type, value);
-        double count = 0;
-        if (!file_.next(property.count, count) || !(count >= 0) || count > double(file_.bytesLeft())) return false;
-        for (uint64_t i = 0; i < uint64_t(count); ++i) {
-            if (!file_.next(property.type, value)) return false;
-            if (list) list->push_back(value);
+    // Corners that differ in UV or colour are vertices of their own.
+    void takeSplitVertices() {
+        std::vector<glm::vec3> normals(model_.normals.empty() ? 0 : vertices_.size());
+        std::vector<glm::vec2> uvs(vertices_.size(), glm::vec2(kNotGiven));
+        std::vector<glm::vec4> colours(vertices_.size(), glm::vec4(kNotGiven));
+        places_.resize(vertices_.size());
+        bool anyUvs = false;
+        for (const auto& [corner, vertex] : vertices_) {
+            const size_t from = size_t(corner.position);
+            places_[vertex] = positions_[from];
+            if (!normals.empty()) normals[vertex] = model_.normals[from];
+            if (!model_.uvs.empty()) uvs[vertex] = model_.uvs[from];
+            if (corner.uv != -1) uvs[vertex] = std::bit_cast<glm::vec2>(corner.uv);
+            anyUvs = anyUvs || !std::isnan(uvs[vertex].x);
+            if (!model_.colours.empty()) colours[vertex] = model_.colours[from];
+            for (int k = 0; corner.variant != 0 && k < 4; ++k)
+                colours[vertex][k] = float(corner.variant >> (8 * k) & 255u) / 255;
         }
-        return true;
-    }
-
-    Status readOther(const Element& element, bool face, uint64_t number) {
-        for (const Property& p : element.properties) {
-            bool corners = face && p.list && (p.name == "vertex_indices" || p.name == "vertex_index");
-            double value = 0;
-            list_.clear();
-            if (!readProperty(p, value, corners ? &list_ : nullptr)) return cut(element, number);
-            if (!corners) continue;
-            if (list_.size() < 3) continue;
-            if (list_.size() > kMaxList) return file_.here("face " + std::to_string(number) + ": too many corners");
-            polygon_.clear();
-            for (double index : list_) {
-                if (!(index >= 0) || index >= double(model_.positions.size()) || index != std::floor(index))
-                    return file_.here("face " + std::to_string(number) + ": vertex " +
-                                      std::to_string((long long)(std::abs(index) < 1e15 ? index : -1)) +
-                                      " does not exist: the file has " + std::to_string(model_.positions.size()));
-                polygon_.push_back(uint32_t(index));
-            }
-            triangulate(model_.positions, polygon_, model_.indices);
-        }
-        return Done{};
+        model_.normals = std::move(normals);
+        model_.uvs = anyUvs ? std::move(uvs) : std::vector<glm::vec2>();
+        model_.colours = std::move(colours);
     }
 
     const std::string& path_;
+    const ImportOptions& options_;
+    Intake& intake_;
     PlyFile file_;
     Model& model_;
-    std::vector<double> list_;
+    Blemishes blemishes_;
+    std::vector<glm::dvec3> positions_;  // of the file's vertices
+    std::vector<std::vector<double>> lists_;
     std::vector<uint32_t> polygon_;
-    bool strips_ = false;
+    Polygons polygons_;
+    bool splits_ = false;  // corners have values of their own
+    CornerVertices vertices_;
+    std::vector<glm::dvec3> places_;  // of the model's vertices, where corners are split
 };
 
 }  // namespace
 
-Status importPly(const std::string& path, Bytes file, Model& model) {
-    return PlyReader(path, file, model).run();
+Status importPly(const std::string& path, Bytes file, const ImportOptions& options, Intake& intake, Model& model) {
+    return PlyReader(path, file, options, intake, model).run();
 }
 
 }  // namespace espalier::import

@@ -1,47 +1,34 @@
-// In: a glTF file. Out: one triangle list with all nodes' transforms and instances applied, materials and images.
+// In: a glTF file. Out: one triangle list with all nodes' transforms, instances, skins and morph targets applied,
+// materials and images.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
-#include "tools/bake/import.hpp"
+#include "tools/bake/import_gltf.hpp"
 
 namespace espalier::import {
 namespace {
 
 constexpr int kMaxNodeDepth = 512;
-constexpr int kMaxUvSet = 7;
 
-// Translation, rotation (a quaternion x, y, z, w) and scale as glTF composes them.
-glm::dmat4 compose(const glm::dvec3& t, const glm::dvec4& q, const glm::dvec3& s) {
-    double x = q.x, y = q.y, z = q.z, w = q.w;
-    glm::dmat4 m(1);
-    m[0] = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0};
-    m[1] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0};
-    m[2] = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0};
-    for (int i = 0; i < 3; ++i) m[i] *= s[i];
-    m[3] = glm::dvec4(t, 1);
-    return m;
+// Carries normals over singular and mirroring transforms alike.
+glm::dmat3 normalMatrix(const glm::dmat3& linear) {
+    glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                        glm::cross(linear[0], linear[1]));
+    return glm::determinant(linear) < 0 ? -cofactor : cofactor;
 }
 
-glm::dmat4 localTransform(const tinygltf::Node& node) {
-    if (node.matrix.size() == 16) {
-        glm::dmat4 m;
-        for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[size_t(i)];
-        return m;
-    }
-    glm::dvec3 t(0), s(1);
-    glm::dvec4 q(0, 0, 0, 1);
-    if (node.translation.size() == 3) t = {node.translation[0], node.translation[1], node.translation[2]};
-    if (node.scale.size() == 3) s = {node.scale[0], node.scale[1], node.scale[2]};
-    if (node.rotation.size() == 4) q = {node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]};
-    return compose(t, q, s);
+// KHR_node_visibility hides a node with all that hangs below it.
+bool isHidden(const tinygltf::Node& node) {
+    auto it = node.extensions.find("KHR_node_visibility");
+    return it != node.extensions.end() && it->second.IsObject() && it->second.Get("visible").IsBool() &&
+           !it->second.Get("visible").Get<bool>();
 }
 
-bool isFinite(const glm::dmat4& m) {
-    for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 4; ++r)
-            if (!std::isfinite(m[c][r])) return false;
-    return true;
+std::string counted(size_t count, const char* one, const char* many) {
+    return std::to_string(count) + (count == 1 ? one : many);
 }
 
 class Importer {
@@ -51,15 +38,11 @@ class Importer {
 
     Status run() {
         const auto& gltf = document_.gltf;
+        for (const std::string& remark : document_.remarks) warn(remark);
         if (options_.scene >= 0 && size_t(options_.scene) >= gltf.scenes.size())
             return Failure(document_.path, "scene " + std::to_string(options_.scene) +
                                                " does not exist: the file has " + std::to_string(gltf.scenes.size()));
         readMaterials(document_, model_, materialUvs_);
-        for (MaterialUv& uv : materialUvs_) {
-            if (uv.texCoord >= 0 && uv.texCoord <= kMaxUvSet) continue;
-            warn("a material's texCoord " + std::to_string(uv.texCoord) + " is beyond 7: TEXCOORD_0 is taken");
-            uv.texCoord = 0;
-        }
         visited_.assign(gltf.nodes.size(), false);
         placed_.assign(gltf.meshes.size(), 0);
         countUses();
@@ -70,14 +53,17 @@ class Importer {
         if (gltf.nodes.empty() && !gltf.meshes.empty()) {
             warn("no node places the file's meshes: each is taken where it was made");
             for (int mesh = 0; size_t(mesh) < gltf.meshes.size(); ++mesh) {
-                Status done = place(mesh, glm::dmat4(1));
+                Status done = place(mesh, {}, gltf.meshes[size_t(mesh)].weights);
                 if (!done) return done;
             }
         }
         tell();
         if (model_.indices.empty()) return Failure(document_.path, "the file holds no triangles" + whyNone());
+        settle(places_, model_.indices, options_.origin, model_);
+        model_.colours.resize(anyColours_ ? places_.size() : 0, glm::vec4(1));
         if (!anyUvs_) model_.uvs.clear();
         if (!anyUvs_) model_.materialUvs.clear();
+        if (!anyOtherUvs_) model_.otherUvs.clear();
         if (!allNormals_) model_.normals.clear();
         return Done{};
     }
@@ -89,7 +75,10 @@ class Importer {
     void tell() {
         if (skipped_ > 0) warn(std::to_string(skipped_) + " primitives of points or lines left out");
         if (placeless_ > 0) warn(std::to_string(placeless_) + " primitives without POSITION left out");
-        if (skinned_) warn("skins are not applied: meshes are taken as they are stored");
+        if (empty_ > 0) warn(counted(empty_, " primitive has", " primitives have") + " no triangles: left out");
+        if (hidden_ > 0)
+            warn(counted(hidden_, " node is", " nodes are") +
+                 " hidden by KHR_node_visibility: left out with all that hangs below");
         if (document_.gltf.scenes.size() > 1)
             warn("scene " + std::to_string(scene()) + " of the file's " + std::to_string(document_.gltf.scenes.size()) +
                  " is read");
@@ -107,7 +96,7 @@ class Importer {
         if (skipped_ > 0) return ": its primitives are points or lines";
         for (size_t n : placed_)
             if (n > 0) return ": its meshes are empty";
-        return ": its scene places no mesh";
+        return hidden_ > 0 ? ": all of its meshes are hidden" : ": its scene places no mesh";
     }
 
     int scene() const {
@@ -144,18 +133,15 @@ class Importer {
         if (depth > kMaxNodeDepth) return Failure(document_.path, where + ": nodes are nested too deeply");
         visited_[size_t(index)] = true;
         const auto& node = document_.gltf.nodes[size_t(index)];
+        if (isHidden(node)) {
+            ++hidden_;
+            return Done{};
+        }
         glm::dmat4 world = parent * localTransform(node);
         if (!isFinite(world)) return Failure(document_.path, where + ": its transform is not a number");
         if (node.mesh >= 0) {
-            if (size_t(node.mesh) >= document_.gltf.meshes.size())
-                return Failure(document_.path, where + ": mesh " + std::to_string(node.mesh) + " does not exist");
-            if (node.skin >= 0) skinned_ = true;
-            auto instances = readInstances(node, where);
-            if (!instances) return std::move(instances.failure());
-            for (const glm::dmat4& instance : *instances) {
-                Status done = place(node.mesh, world * instance);
-                if (!done) return done;
-            }
+            Status done = placeNode(node, world, where);
+            if (!done) return done;
         }
         for (int child : node.children) {
             Status done = visit(child, world, depth + 1);
@@ -164,59 +150,53 @@ class Importer {
         return Done{};
     }
 
-    // The transforms of EXT_mesh_gpu_instancing below a node's own; one that changes nothing without it.
-    Result<std::vector<glm::dmat4>> readInstances(const tinygltf::Node& node, const std::string& where) {
-        auto it = node.extensions.find("EXT_mesh_gpu_instancing");
-        if (it == node.extensions.end()) return std::vector<glm::dmat4>{glm::dmat4(1)};
-        std::string place = where + ".EXT_mesh_gpu_instancing";
-        if (!it->second.IsObject() || !it->second.Get("attributes").IsObject())
-            return Failure(document_.path, place + ": no attributes");
-        const tinygltf::Value& attributes = it->second.Get("attributes");
-        std::vector<float> values[3];
-        const char* names[3] = {"TRANSLATION", "ROTATION", "SCALE"};
-        size_t count = 0;
-        for (int i = 0; i < 3; ++i) {
-            if (!attributes.Get(names[i]).IsInt()) continue;
-            int components = i == 1 ? 4 : 3;
-            auto read = readFloats(document_, attributes.Get(names[i]).Get<int>(), components, names[i]);
-            if (!read) return std::move(read.failure());
-            size_t here = read->size() / size_t(components);
-            if (count != 0 && here != count)
-                return Failure(document_.path, place + ": " + names[i] + " has " + std::to_string(here) +
-                                                   " instances of " + std::to_string(count));
-            count = here;
-            values[i] = std::move(*read);
+    Status placeNode(const tinygltf::Node& node, const glm::dmat4& world, const std::string& where) {
+        if (size_t(node.mesh) >= document_.gltf.meshes.size())
+            return Failure(document_.path, where + ": mesh " + std::to_string(node.mesh) + " does not exist");
+        const std::vector<double>& weights =
+            node.weights.empty() ? document_.gltf.meshes[size_t(node.mesh)].weights : node.weights;
+        if (node.skin >= 0) {
+            auto joints = jointsOf(node.skin);
+            if (!joints.empty()) {
+                if (node.extensions.count("EXT_mesh_gpu_instancing"))
+                    warn(where + ": instances of a mesh with a skin are not read: it stands where its joints are");
+                return place(node.mesh, {world, std::move(joints)}, weights);
+            }
         }
-        if (count == 0) return Failure(document_.path, place + ": no TRANSLATION, ROTATION or SCALE");
-        if (!document_.intake->take(count * sizeof(glm::dmat4)))
-            return Failure(document_.path, place + ": absurdly many instances");
-        std::vector<glm::dmat4> out(count);
-        for (size_t i = 0; i < count; ++i) {
-            glm::dvec3 t(0), s(1);
-            glm::dvec4 q(0, 0, 0, 1);
-            for (int k = 0; k < 3 && !values[0].empty(); ++k) t[k] = double(values[0][i * 3 + size_t(k)]);
-            for (int k = 0; k < 4 && !values[1].empty(); ++k) q[k] = double(values[1][i * 4 + size_t(k)]);
-            for (int k = 0; k < 3 && !values[2].empty(); ++k) s[k] = double(values[2][i * 3 + size_t(k)]);
-            out[i] = compose(t, q, s);
-            if (!isFinite(out[i]))
-                return Failure(document_.path, place + ": instance " + std::to_string(i) + " is not a number");
-        }
-        return out;
-    }
-
-    Status place(int mesh, const glm::dmat4& world) {
-        ++placed_[size_t(mesh)];
-        const auto& primitives = document_.gltf.meshes[size_t(mesh)].primitives;
-        for (size_t i = 0; i < primitives.size(); ++i) {
-            Status done = add(primitives[i], world, {mesh, i});
+        auto instances = readInstances(document_, node, where);
+        if (!instances) return std::move(instances.failure());
+        for (const glm::dmat4& instance : *instances) {
+            Status done = place(node.mesh, {world * instance, {}}, weights);
             if (!done) return done;
         }
         return Done{};
     }
 
-    using PrimitiveId = std::pair<int, size_t>;  // mesh, primitive
+    // Of a skin that can't be read: none, with a warning.
+    std::vector<glm::dmat4> jointsOf(int skin) {
+        if (worlds_.empty()) worlds_ = worldTransforms(document_);
+        auto joints = readSkin(document_, skin, worlds_);
+        if (joints) return std::move(*joints);
+        warn("a skin is not applied, its mesh stands where its node is: " +
+             joints.failure().diagnostics.front().message);
+        return {};
+    }
 
-    Status add(const tinygltf::Primitive& from, const glm::dmat4& world, PrimitiveId id) {
+    Status place(int mesh, const Placement& at, const std::vector<double>& weights) {
+        ++placed_[size_t(mesh)];
+        const auto& primitives = document_.gltf.meshes[size_t(mesh)].primitives;
+        for (size_t i = 0; i < primitives.size(); ++i) {
+            Status done = add(primitives[i], at, weights, {mesh, i});
+            if (!done) return done;
+        }
+        return Done{};
+    }
+
+    using PrimitiveId = std::pair<int, size_t>;                       // mesh, primitive
+    using Kept = std::tuple<PrimitiveId, bool, std::vector<double>>;  // with its skin's joints, morphed by weights
+
+    Status add(const tinygltf::Primitive& from, const Placement& at, const std::vector<double>& weights,
+               PrimitiveId id) {
         std::string where = "meshes[" + std::to_string(id.first) + "].primitives[" + std::to_string(id.second) + "]";
         bool packed = from.extensions.count("KHR_draco_mesh_compression") != 0;
         int mode = from.mode < 0 ? TINYGLTF_MODE_TRIANGLES : from.mode;
@@ -235,77 +215,125 @@ class Importer {
             material = 0;
         }
         // What is placed once is not kept.
-        auto known = kept_.find(id);
+        const Kept key{id, !at.joints.empty(), weights};
+        auto known = kept_.find(key);
         Primitive once;
         if (known == kept_.end()) {
-            auto read = readPrimitive(document_, from, {options_.uvSet, materialUvs_[material].texCoord}, where);
+            auto read = readRigged(from, at.joints.size(), weights, uint32_t(material), where);
             if (!read) return std::move(read.failure());
             if (uses_[size_t(id.first)] > 1)
-                known = kept_.emplace(id, std::move(*read)).first;
+                known = kept_.emplace(key, std::move(*read)).first;
             else
                 once = std::move(*read);
         }
-        return append(known == kept_.end() ? once : known->second, world, uint32_t(material), where);
+        const Primitive& primitive = known == kept_.end() ? once : known->second;
+        if (primitive.indices.empty()) {
+            ++empty_;
+            return Done{};
+        }
+        return append(primitive, at, uint32_t(material), where);
     }
 
-    Status append(const Primitive& from, const glm::dmat4& world, uint32_t material, const std::string& where) {
-        size_t count = from.positions.size() / 3, first = model_.positions.size();
+    Result<Primitive> readRigged(const tinygltf::Primitive& from, size_t joints, const std::vector<double>& weights,
+                                 uint32_t material, const std::string& where) {
+        const MaterialUv& uv = materialUvs_[material];
+        const PrimitiveRequest request{options_.uvSet, uv.texCoord, uv.other,
+                                       joints > 0,     weights,     colourComponents(document_, from)};
+        auto read = readPrimitive(document_, from, request, where, model_.warnings);
+        if (!read || joints == 0 || read->indices.empty()) return read;
+        if (read->joints[0].empty()) {
+            warn(where + ": its vertices name no joints: it stands where its node is");
+        } else if (const size_t mended = mendWeights(*read, joints); mended > 0) {
+            warn(where + ": " + counted(mended, " vertex has", " vertices have") +
+                 " no usable weights, or names joints that its skin doesn't have");
+        }
+        return read;
+    }
+
+    Status append(const Primitive& from, const Placement& at, uint32_t material, const std::string& where) {
+        size_t count = from.positions.size() / 3, first = places_.size();
         if (first + count > kMaxVertices) return Failure(document_.path, "more than 67 million vertices");
-        if (!document_.intake->take(count * 40 + from.indices.size() * 6))
+        if (!document_.intake->take(count * (from.colours.empty() ? 72 : 88) + from.indices.size() * 6))
             return Failure(document_.path, where +
                                                ": placing it so often takes absurdly much for a file of its size; "
                                                "bake it once and place the surface");
-        appendVertices(from, world, materialUvs_[material]);
-        bool mirrored = glm::determinant(glm::dmat3(world)) < 0;
+        const Placement by = from.joints[0].empty() ? Placement{at.world, {}} : at;
+        const std::vector<double> volumes = appendVertices(from, by, materialUvs_[material]);
         for (size_t i = 0; i + 2 < from.indices.size(); i += 3) {
             uint32_t a = from.indices[i], b = from.indices[i + 1], c = from.indices[i + 2];
-            if (mirrored) std::swap(b, c);
+            if (volumes[a] + volumes[b] + volumes[c] < 0) std::swap(b, c);  // mirrored
             for (uint32_t v : {a, b, c}) model_.indices.push_back(uint32_t(first) + v);
             model_.triangleMaterial.push_back(material);
         }
         return Done{};
     }
 
-    void appendVertices(const Primitive& from, const glm::dmat4& world, const MaterialUv& transform) {
-        glm::dmat3 linear(world);
-        // The cofactor matrix carries normals over singular and mirroring transforms alike.
-        glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                            glm::cross(linear[0], linear[1]));
-        if (glm::determinant(linear) < 0) cofactor = -cofactor;
+    // Returns of each vertex what becomes of a unit of volume at it.
+    std::vector<double> appendVertices(const Primitive& from, const Placement& at, const MaterialUv& transform) {
         // A set that isn't there is the walk's, as files have it whose materials came from elsewhere.
         const auto& walk = from.walkUvs;
         const auto& drawn = from.drawnUvs.empty() ? walk : from.drawnUvs;
+        const auto& other = from.otherUvs.empty() ? drawn : from.otherUvs;
+        const auto uvAt = [](const std::vector<float>& uvs, size_t i, glm::vec2 none) {
+            return uvs.empty() ? none : glm::vec2(uvs[i * 2], uvs[i * 2 + 1]);
+        };
         size_t count = from.positions.size() / 3;
+        appendColours(from);
+        std::vector<double> volumes(count);
+        glm::dmat4 matrix(1);
+        glm::dmat3 forNormals(1);
         for (size_t i = 0; i < count; ++i) {
+            if (i == 0 || !at.joints.empty()) {
+                matrix = at.of(from, i);
+                forNormals = normalMatrix(glm::dmat3(matrix));
+            }
+            volumes[i] = glm::determinant(glm::dmat3(matrix));
             glm::dvec3 p(from.positions[i * 3], from.positions[i * 3 + 1], from.positions[i * 3 + 2]);
-            model_.positions.push_back(glm::vec3(world * glm::dvec4(p, 1)));
+            places_.push_back(glm::dvec3(matrix * glm::dvec4(p, 1)));
             glm::vec3 n(0);
             if (!from.normals.empty()) {
                 glm::dvec3 m =
-                    cofactor * glm::dvec3(from.normals[i * 3], from.normals[i * 3 + 1], from.normals[i * 3 + 2]);
+                    forNormals * glm::dvec3(from.normals[i * 3], from.normals[i * 3 + 1], from.normals[i * 3 + 2]);
                 double length = glm::length(m);
                 if (length > 0 && std::isfinite(length)) n = glm::vec3(m / length);
             }
             model_.normals.push_back(n);
-            float none = std::numeric_limits<float>::quiet_NaN();
-            glm::vec2 uv = walk.empty() ? glm::vec2(none) : glm::vec2(walk[i * 2], walk[i * 2 + 1]);
-            glm::vec3 m = drawn.empty() ? glm::vec3(0) : glm::vec3(drawn[i * 2], drawn[i * 2 + 1], 1);
-            model_.uvs.push_back(uv);
+            model_.uvs.push_back(uvAt(walk, i, glm::vec2(std::numeric_limits<float>::quiet_NaN())));
+            glm::vec3 m = drawn.empty() ? glm::vec3(0) : glm::vec3(uvAt(drawn, i, {}), 1);
             model_.materialUvs.push_back({glm::dot(transform.u, m), glm::dot(transform.v, m)});
+            model_.otherUvs.push_back(uvAt(other, i, {}));
         }
         if (!walk.empty() || !drawn.empty()) anyUvs_ = true;
+        if (transform.other >= 0 && !other.empty()) anyOtherUvs_ = true;
         if (from.normals.empty()) allNormals_ = false;
+        return volumes;
+    }
+
+    // Vertices of primitives without colours are white, as are those whose colours are not numbers.
+    void appendColours(const Primitive& from) {
+        if (from.colours.empty()) return;
+        const size_t count = from.positions.size() / 3, components = from.colours.size() / count;
+        model_.colours.resize(places_.size(), glm::vec4(1));
+        for (size_t i = 0; i < count; ++i) {
+            glm::vec4 colour(1);
+            for (size_t k = 0; k < components; ++k) colour[int(k)] = from.colours[i * components + k];
+            if (!(glm::dot(colour, colour) < 1e30f)) colour = glm::vec4(1);
+            model_.colours.push_back(colour);
+            anyColours_ = anyColours_ || colour != glm::vec4(1);
+        }
     }
 
     const Document& document_;
     const ImportOptions& options_;
     Model& model_;
+    std::vector<glm::dvec3> places_;  // of vertices
     std::vector<MaterialUv> materialUvs_;
+    std::vector<glm::dmat4> worlds_;  // of all nodes, once a skin asks
     std::vector<bool> visited_;
     std::vector<size_t> uses_, placed_;  // by mesh: nodes that name it; places it was put
-    std::map<PrimitiveId, Primitive> kept_;
-    size_t skipped_ = 0, placeless_ = 0;
-    bool anyUvs_ = false, allNormals_ = true, skinned_ = false;
+    std::map<Kept, Primitive> kept_;
+    size_t skipped_ = 0, placeless_ = 0, empty_ = 0, hidden_ = 0;
+    bool anyUvs_ = false, anyOtherUvs_ = false, anyColours_ = false, allNormals_ = true;
 };
 
 }  // namespace

@@ -1,10 +1,13 @@
 #pragma once
 
-// Words and numbers of a text, as OBJ and PLY have them.
+// Lines, words and numbers of a text, as OBJ, MTL and PLY have them.
 
 #include <charconv>
 #include <cmath>
+#include <string>
 #include <string_view>
+
+#include "runtime/core/result.hpp"
 
 namespace espalier::import {
 
@@ -28,6 +31,53 @@ inline std::string_view trimmed(std::string_view line) {
     while (!line.empty() && isBlank(line.front())) line.remove_prefix(1);
     while (!line.empty() && isBlank(line.back())) line.remove_suffix(1);
     return line;
+}
+
+// Cuts the first line off a text, whichever way it ends: "\n", "\r\n", or "\r" alone, as old Macintosh files have it.
+inline std::string_view nextLine(std::string_view& text) {
+    size_t end = 0;
+    while (end < text.size() && text[end] != '\n' && text[end] != '\r') ++end;
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end);
+    text.remove_prefix(text.starts_with("\r\n") ? 2 : text.empty() ? 0 : 1);
+    return line;
+}
+
+// Text editors of Windows put a mark in front that tells the encoding.
+inline std::string_view withoutByteOrderMark(std::string_view text) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    return text;
+}
+
+// A line without what follows a # on it.
+inline std::string_view withoutComment(std::string_view line) {
+    return trimmed(line.substr(0, line.find('#')));
+}
+
+// Calls statement(line, number) for every line that is neither empty nor a comment; a backslash at its end joins the
+// next one. Stops at the first failure. Comments at a line's end are left in: names may hold a #.
+template <class Statement>
+Status eachLine(std::string_view text, Statement&& statement) {
+    std::string joined;
+    int number = 0, first = 0;
+    text = withoutByteOrderMark(text);
+    while (!text.empty()) {
+        std::string_view line = trimmed(nextLine(text));
+        ++number;
+        if (joined.empty()) first = number;
+        if (line.starts_with('#')) line = {};
+        const bool more = line.ends_with('\\');
+        if (more) line.remove_suffix(1);
+        if (more || !joined.empty()) joined.append(line).push_back(' ');
+        if (more && !text.empty()) continue;
+        std::string_view whole = trimmed(joined.empty() ? line : std::string_view(joined));
+        if (!whole.empty()) {
+            Status done = statement(whole, first);
+            if (!done) return done;
+        }
+        joined.clear();
+    }
+    return Done{};
 }
 
 // The whole word as a number; false for everything else. Numbers too small for a double are 0.

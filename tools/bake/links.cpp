@@ -15,9 +15,10 @@ namespace {
 
 constexpr double kMinPiece = 1e-4;  // of an edge's length: shorter pieces are not linked
 constexpr double kAgainst = -0.9;   // cosine: linked borders run against each other
+constexpr double kAlike = 1e-3;     // of the tolerance: distances that differ by less are alike
 // Two open borders that run along each other, e over [e0, e1], f over the same points.
 struct Neighbours {
-    double distance;
+    double distance, turn;  // turn: of a walk's, by the outside
     uint32_t e, f;
     double e0, e1;
 };
@@ -54,7 +55,9 @@ bool runAlong(const Border& e, const Border& f, double tolerance, Neighbours& ou
     return true;
 }
 
-std::vector<Neighbours> findNeighbours(const std::vector<Border>& borders, double tolerance) {
+// The nearest first; of those alike, as a hull's wall and the floor within that both end at its bottom, whose outsides
+// face each other most closely.
+std::vector<Neighbours> findNeighbours(const BakeMesh& mesh, const std::vector<Border>& borders, double tolerance) {
     std::vector<Box> boxes(borders.size());
     for (size_t i = 0; i < boxes.size(); ++i) boxes[i].add(borders[i].a), boxes[i].add(borders[i].b);
     BoxTree tree(std::move(boxes), {});
@@ -62,11 +65,14 @@ std::vector<Neighbours> findNeighbours(const std::vector<Border>& borders, doubl
     tree.pairs(tolerance, [&](uint32_t i, uint32_t j) {
         uint32_t e = std::min(i, j), f = std::max(i, j);
         if (borders[f].half / 3 == borders[e].half / 3) return;
-        Neighbours pair{0, e, f, 0, 0};
-        if (runAlong(borders[e], borders[f], tolerance, pair)) found.push_back(pair);
+        Neighbours pair{0, 0, e, f, 0, 0};
+        if (!runAlong(borders[e], borders[f], tolerance, pair)) return;
+        pair.distance = std::floor(pair.distance / (kAlike * tolerance));
+        pair.turn = outsideAngle(mesh, borders[e].half, borders[f].half);
+        found.push_back(pair);
     });
     std::sort(found.begin(), found.end(), [](const Neighbours& x, const Neighbours& y) {
-        return std::tie(x.distance, x.e, x.f) < std::tie(y.distance, y.e, y.f);
+        return std::tie(x.distance, x.turn, x.e, x.f) < std::tie(y.distance, y.turn, y.e, y.f);
     });
     return found;
 }
@@ -92,8 +98,8 @@ void take(std::vector<Interval>& list, Interval taken) {
 }
 
 // Links open borders pair by pair, nearest first; each stretch leads to one other, there and back alike.
-void linkNearest(std::vector<Border>& borders, double tolerance, std::vector<Link>& links) {
-    for (const Neighbours& pair : findNeighbours(borders, tolerance)) {
+void linkNearest(const BakeMesh& mesh, std::vector<Border>& borders, double tolerance, std::vector<Link>& links) {
+    for (const Neighbours& pair : findNeighbours(mesh, borders, tolerance)) {
         Border& e = borders[pair.e];
         Border& f = borders[pair.f];
         Interval on = largestOpen(e.open, pair.e0, pair.e1);
@@ -124,7 +130,8 @@ void linkBacks(const BakeMesh& mesh, std::vector<Border>& borders, std::vector<L
     for (const auto& [points, on] : edges) {
         if (on.size() != 2) continue;
         Border &e = borders[on[0]], &f = borders[on[1]];
-        if (start(e.half) != start(f.half)) continue;
+        const auto whole = [](const Border& b) { return b.open.size() == 1 && b.open[0].high - b.open[0].low == 1; };
+        if (start(e.half) != start(f.half) || !whole(e) || !whole(f)) continue;
         links.push_back({e.half, f.half, 0, 1, 0, 1, kCrossingNearest});
         links.push_back({f.half, e.half, 0, 1, 0, 1, kCrossingNearest});
         e.open.clear(), f.open.clear();
@@ -143,8 +150,9 @@ std::vector<Link> findLinks(const BakeMesh& mesh, double tolerance) {
         else
             borders.push_back({h, mesh.pointAt(h), mesh.pointAt(BakeMesh::next(h)), {{0, 1}}});
     }
+    // What faces the same way comes first: a hull's bottom that misses its walls by a hair, before the floor inside.
+    if (borders.size() > 1 && tolerance > 0) linkNearest(mesh, borders, tolerance, links);
     linkBacks(mesh, borders, links);
-    if (borders.size() > 1 && tolerance > 0) linkNearest(borders, tolerance, links);
     for (const Border& b : borders)
         for (const Interval& i : b.open) links.push_back({b.half, kNone, i.low, i.high, 0, 0, kCrossingOpen});
     std::sort(links.begin(), links.end(),

@@ -51,6 +51,38 @@ float distanceTo(const MeshTree& to, const std::vector<DrawVertex>& vertices, co
     return count == 0 ? least : *std::max_element(found.begin(), found.end());
 }
 
+// How far colours of the mesh are off where the simple mesh stands for it: the difference, of one channel, times the
+// length over which the simple triangle there spreads its corners' colours. By samples, triangles' middles.
+float colourError(const MeshTree& simple, const CoarserMesh& mesh, const SurfaceData& surface, float least) {
+    const auto isColoured = [](const Material& m) { return m.coloured; };
+    if (std::ranges::none_of(surface.materials, isColoured)) return least;
+    const auto colourOf = [](const std::vector<DrawVertex>& vertices, const uint32_t* t, glm::vec3 weights) {
+        return unpackColour(vertices[t[0]].colour) * weights.x + unpackColour(vertices[t[1]].colour) * weights.y +
+               unpackColour(vertices[t[2]].colour) * weights.z;
+    };
+    const size_t triangles = surface.indices.size() / 3, stride = std::max<size_t>(1, triangles * 2 / kSamples);
+    const size_t count = (triangles + stride - 1) / stride;
+    std::vector<float> found((count + kSamplesAtOnce - 1) / kSamplesAtOnce, least);
+    parallelFor(count, kSamplesAtOnce, [&](size_t begin, size_t end) {
+        float& most = found[begin / kSamplesAtOnce];
+        for (size_t i = begin; i < end; ++i) {
+            const uint32_t* t = &surface.indices[i * stride * 3];
+            const auto& from = surface.vertices;
+            const auto hit = simple.nearest((from[t[0]].position + from[t[1]].position + from[t[2]].position) / 3.0f);
+            if (!hit) continue;
+            const uint32_t* s = &mesh.indices[size_t(hit->triangle) * 3];
+            const glm::vec4 there = colourOf(mesh.vertices, s, {1 - hit->weights.x - hit->weights.y, hit->weights});
+            const glm::vec4 off = glm::abs(colourOf(from, t, glm::vec3(1.0f / 3)) - there);
+            float length = 0;
+            for (size_t k = 0; k < 3; ++k)
+                length = std::max(length,
+                                  glm::distance(mesh.vertices[s[k]].position, mesh.vertices[s[(k + 1) % 3]].position));
+            most = std::max(most, length * std::max({off.x, off.y, off.z}));
+        }
+    });
+    return count == 0 ? least : *std::ranges::max_element(found);
+}
+
 // The largest distance to the mesh of bilinear reads between four inner texels of a chart, creases left out: there a
 // walk takes the triangle.
 float levelError(const SurfaceLevelData& level, const MeshTree& mesh) {
@@ -101,7 +133,8 @@ CoarserMesh compact(const std::vector<DrawVertex>& vertices, const std::vector<u
     return mesh;
 }
 
-// Which vertices are one to the collapses: of untextured materials all in one place. next: further vertices of a group.
+// Which vertices are one to the collapses: of untextured materials all in one place that have one colour. next: further
+// vertices of a group.
 struct Groups {
     std::vector<uint32_t> first, next;  // per vertex
 };
@@ -113,13 +146,13 @@ Groups groupVertices(const CoarserMesh& mesh, const std::vector<uint32_t>& mater
     for (uint32_t v = 0; v < count; ++v) groups.first[v] = order[v] = v;
     auto key = [&](uint32_t v) {
         const glm::vec3 p = mesh.vertices[v].position;
-        return std::tuple(materialOf[v], p.x, p.y, p.z);
+        return std::tuple(materialOf[v], p.x, p.y, p.z, mesh.vertices[v].colour);
     };
     std::sort(order.begin(), order.end(),
               [&](uint32_t a, uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
     for (size_t i = 1; i < count; ++i) {
         const Material& material = surface.materials[materialOf[order[i]]];
-        if (material.baseColorImage >= 0 || material.normalImage >= 0 || key(order[i]) != key(order[i - 1])) continue;
+        if (isTextured(material) || key(order[i]) != key(order[i - 1])) continue;
         groups.first[order[i]] = groups.first[order[i - 1]];
         groups.next[order[i - 1]] = order[i];
     }
@@ -206,6 +239,7 @@ void simplifyDrawing(const MeshTree& drawn, SurfaceData& surface) {
         from.error = surface.coarser.empty() ? 0 : surface.coarser.back().error;
         from.error = distanceTo(simple, surface.vertices, surface.indices, from.error);
         from.error = distanceTo(drawn, from.vertices, from.indices, from.error);
+        from.error = colourError(simple, from, surface, from.error);
         if (from.error > kLargestError * radius) return;
         surface.coarser.push_back(from);
     }

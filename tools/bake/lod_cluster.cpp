@@ -65,8 +65,10 @@ std::vector<uint32_t> findPlaces(const std::vector<DrawVertex>& vertices, const 
 }
 
 auto valuesOf(const DrawVertex& v) {
-    return std::array{v.position.x, v.position.y, v.position.z, v.normal.x, v.normal.y, v.normal.z, v.tangent.x,
-                      v.tangent.y,  v.tangent.z,  v.tangent.w,  v.uv.x,     v.uv.y,     v.walkUv.x, v.walkUv.y};
+    return std::pair(std::array{v.position.x, v.position.y, v.position.z, v.normal.x, v.normal.y, v.normal.z,
+                                v.tangent.x, v.tangent.y, v.tangent.z, v.tangent.w, v.uv.x, v.uv.y, v.walkUv.x,
+                                v.walkUv.y, v.otherUv.x, v.otherUv.y},
+                     v.colour);
 }
 
 // Per vertex the first that is the same in everything.

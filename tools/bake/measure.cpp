@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shaders/shared/surface_lookup.h"
 #include "tools/bake/bake_mesh.hpp"
 #include "tools/bake/quantile.hpp"
 
@@ -66,6 +67,15 @@ Back wayBack(const SurfaceData& surface, glm::dvec2 uv, uint32_t chart, uint32_t
     return best;
 }
 
+// Is the texel in front of a crossing's middle ground?
+bool beginsOnGround(const SurfaceData& surface, const Crossing& c) {
+    const SurfaceLevelData& level = surface.levels[0];
+    const glm::vec2 d = c.b - c.a,
+                    inward = glm::vec2(-d.y, d.x) * ((c.flags & kCrossingInsideLeft) != 0 ? 1.0f : -1.0f);
+    const glm::vec2 at = (c.a + c.b) * 0.5f + inward / (std::max(glm::length(d), 1e-30f) * float(level.size));
+    return texelClass(level.texels[texelAt(level.size, at)].bits) == kTexelInner;
+}
+
 void measureCrossings(const std::vector<Sides>& sides, const SurfaceData& surface, BakeReport& report) {
     std::vector<double> trips, gaps;
     double size = surface.levels[0].size;
@@ -92,8 +102,9 @@ void measureCrossings(const std::vector<Sides>& sides, const SurfaceData& surfac
             gaps.push_back(glm::length(onTriangle(here, p) - onTriangle(there, q)) / texel);
         }
         // From the back of a sheet no way leads back: there walks are on its outside. The end of a contact that leads
-        // to one place of a border is judged with its middle.
-        if (dangling && (c.flags & kCrossingTurned) == 0 && glm::length(c.tb - c.ta) * float(size) > kPlace)
+        // to one place of a border is judged with its middle. Out of what is buried ways lead, and none there.
+        if (dangling && (c.flags & kCrossingTurned) == 0 && glm::length(c.tb - c.ta) * float(size) > kPlace &&
+            (kind != kCrossingContact || beginsOnGround(surface, c)))
             ++(kind == kCrossingContact ? report.danglingContacts : report.danglingCrossings);
     }
     report.roundTrip50 = percentile(trips, 0.5);

@@ -13,6 +13,7 @@
 #include "runtime/surface/mesh_tree.hpp"
 #include "shaders/shared/walk.h"
 #include "tools/bake/bake_mesh.hpp"
+#include "tools/bake/reach_walks.hpp"
 
 namespace espalier::bakery {
 namespace {
@@ -21,6 +22,7 @@ constexpr double kEvery = 8;     // texels of a crossing that one walk stands fo
 constexpr float kInside = 0.1f;  // texels: where a walk starts, beside its crossing
 constexpr float kStride = 0.7f;  // texels of a walk between two looks for ground
 constexpr int kStrides = 5;
+constexpr size_t kWalks = 400;
 constexpr size_t kProbes = 12;  // of a region, asked whether they are seen
 constexpr int kRays = 96;       // from each
 constexpr float kOff = 0.1f;    // texels off the surface that rays begin
@@ -278,6 +280,27 @@ std::vector<uint8_t> findEnclosed(const Ground& ground, const std::vector<uint8_
     return enclosed;
 }
 
+// Evenly spread over the ground that is seen.
+std::vector<WalkStart> findStarts(const Ground& ground, const Map& map, const std::vector<uint8_t>& enclosed,
+                                  const SurfaceData& surface) {
+    std::vector<uint32_t> cells;
+    const uint32_t size = ground.size();
+    const auto placeOf = [size](uint32_t y, uint32_t x) { return texelIndex(size, x, y); };
+    for (uint32_t y = 0; y < size; ++y)
+        for (uint32_t x = 0; x < size; ++x)
+            if (const uint32_t r = ground.region(placeOf(y, x)); r != kNone && !enclosed[r])
+                cells.push_back(y * size + x);
+    std::vector<WalkStart> starts;
+    const size_t count = std::min(cells.size(), kWalks);
+    for (size_t i = 0; i < count; ++i) {
+        const uint32_t at = cells[(2 * i + 1) * cells.size() / (2 * count)], y = at / size, x = at % size;
+        const uint32_t cell = placeOf(y, x);
+        starts.push_back({(glm::vec2(float(x), float(y)) + 0.5f) / float(size),
+                          texelChart(surface.levels[0].texels[cell].bits), map.piece[ground.region(cell)]});
+    }
+    return starts;
+}
+
 }  // namespace
 
 std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Sides>& sides, const MeshTree& drawn,
@@ -303,6 +326,8 @@ std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Sid
         (enclosed[r] ? piece.enclosed : piece.area) += map.area[r];
         if (!unreached[r]) piece.reachable += map.area[r];
     }
+    const std::vector<WalkEnds> ends = walkAbout(mesh, surface, findStarts(ground, map, enclosed, surface), count);
+    for (uint32_t p = 0; p < count; ++p) pieces[p].walks = ends[p].walks, pieces[p].ended = ends[p].ended;
     std::erase_if(pieces, [](const PieceReach& p) { return p.area <= 0; });
     std::stable_sort(pieces.begin(), pieces.end(),
                      [](const PieceReach& a, const PieceReach& b) { return a.area > b.area; });

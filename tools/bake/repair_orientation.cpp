@@ -80,6 +80,20 @@ double agreement(const Model& model, uint32_t source, glm::dvec3 normal) {
     return sum / 3;
 }
 
+// Whether the model's own normals say that a triangle is right as it is. It isn't turned then, whatever is around it:
+// a floor that ends at the walls of a tower without an inside runs along its edges as they do, and both are right.
+bool isRight(const Model& model, const BakeMesh& mesh, uint32_t t) {
+    if (model.normals.empty()) return false;
+    const auto& p = mesh.triangles[t].point;
+    const glm::dvec3 a = mesh.points[p[0]], n = glm::cross(mesh.points[p[1]] - a, mesh.points[p[2]] - a);
+    double sum = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const double d = glm::dot(glm::dvec3(model.normals[vertexAt(model, mesh.triangles[t], k)]), n);
+        if (std::isfinite(d)) sum += d;
+    }
+    return sum > 0;
+}
+
 Model turned(const Model& model, const std::vector<uint32_t>& triangles) {
     Model out = model;
     for (uint32_t t : triangles) {
@@ -95,7 +109,9 @@ Model turned(const Model& model, const std::vector<uint32_t>& triangles) {
             out.positions.push_back(glm::vec3(out.positions[from]));
             out.normals.push_back(-glm::vec3(out.normals[from]));
             if (!out.uvs.empty()) out.uvs.push_back(glm::vec2(out.uvs[from]));
+            if (!out.colours.empty()) out.colours.push_back(glm::vec4(out.colours[from]));
             if (!out.materialUvs.empty()) out.materialUvs.push_back(glm::vec2(out.materialUvs[from]));
+            if (!out.otherUvs.empty()) out.otherUvs.push_back(glm::vec2(out.otherUvs[from]));
         }
     }
     return out;
@@ -112,9 +128,11 @@ std::optional<Model> repairOrientation(const Model& model, const BakeMesh& mesh,
             sets.join(h / 3, mesh.twin[h] / 3, 0);
             paired[h] = 1;
         }
+    std::vector<uint8_t> right(count);
+    for (uint32_t t = 0; t < count; ++t) right[t] = isRight(model, mesh, t);
     for (auto [a, b] : unlikePairs(mesh)) {
-        twisted += !sets.join(a / 3, b / 3, 1);
         paired[a] = paired[b] = 1;
+        if (!right[a / 3] || !right[b / 3]) twisted += !sets.join(a / 3, b / 3, 1);
     }
 
     struct Piece {
@@ -142,7 +160,7 @@ std::optional<Model> repairOrientation(const Model& model, const BakeMesh& mesh,
         bool whole = piece.vote < (piece.mixed ? 0 : kAgainst * piece.area);
         if (model.normals.empty() && piece.closed && std::abs(piece.volume) > 1e-9 * std::pow(piece.area, 1.5))
             whole = piece.volume < 0;
-        if ((parity != 0) == whole) continue;
+        if ((parity != 0) == whole || right[t]) continue;
         turn.push_back(mesh.triangles[t].source);
         area += area3(mesh, mesh.triangles[t]);
     }

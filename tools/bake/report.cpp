@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kWorthTelling = 1e-3;  // of the ground: of smaller pieces the report doesn't tell
 constexpr size_t kMostPieces = 16;      // that it lists
+constexpr uint32_t kFewestWalks = 20;   // of which a share that ends is told
 
 double groundOf(const std::vector<PieceReach>& pieces) {
     double sum = 0;
@@ -18,9 +19,20 @@ double groundOf(const std::vector<PieceReach>& pieces) {
 
 }  // namespace
 
+double PieceReach::share() const {
+    const double ends = walks >= kFewestWalks ? double(ended) / walks : 0;
+    return area > 0 ? reachable / area * (1 - ends) : 1;
+}
+
+double BakeReport::endedWalks() const {
+    uint32_t walks = 0, ended = 0;
+    for (const PieceReach& p : pieces) walks += p.walks, ended += p.ended;
+    return walks > 0 ? double(ended) / walks : 0;
+}
+
 double BakeReport::reachableShare() const {
     double reachable = 0;
-    for (const PieceReach& p : pieces) reachable += p.reachable;
+    for (const PieceReach& p : pieces) reachable += p.area * p.share();
     const double all = groundOf(pieces);
     return all > 0 ? reachable / all : 1;
 }
@@ -29,7 +41,7 @@ double BakeReport::leastReachable() const {
     double least = 1;
     const double worth = kWorthTelling * groundOf(pieces);
     for (const PieceReach& p : pieces)
-        if (p.area >= worth && p.area > 0) least = std::min(least, p.reachable / p.area);
+        if (p.area >= worth && p.area > 0) least = std::min(least, p.share());
     return least;
 }
 
@@ -37,6 +49,7 @@ std::string BakeReport::json() const {
     using nlohmann::ordered_json;
     ordered_json j;
     j["source"] = source;
+    j["origin"] = {origin.x, origin.y, origin.z};
     j["triangles"] = triangles;
     j["charts"] = charts;
     j["made_charts"] = madeCharts;
@@ -54,11 +67,13 @@ std::string BakeReport::json() const {
                       {"contact", contactCrossings},
                       {"dangling", danglingCrossings},
                       {"dangling_contacts", danglingContacts}};
-    j["reachable"] = {{"share", reachableShare()}, {"least", leastReachable()}, {"pieces", ordered_json::array()}};
+    j["reachable"] = {{"share", reachableShare()},
+                      {"least", leastReachable()},
+                      {"ended_walks", endedWalks()},
+                      {"pieces", ordered_json::array()}};
     for (size_t i = 0; i < std::min(pieces.size(), kMostPieces); ++i)
-        j["reachable"]["pieces"].push_back({{"area", pieces[i].area},
-                                            {"share", pieces[i].reachable / pieces[i].area},
-                                            {"enclosed", pieces[i].enclosed}});
+        j["reachable"]["pieces"].push_back(
+            {{"area", pieces[i].area}, {"share", pieces[i].share()}, {"enclosed", pieces[i].enclosed}});
     j["materials"] = ordered_json::array();
     for (const MaterialArea& m : materials)
         if (m.area > 0) j["materials"].push_back({{"name", m.name}, {"area", m.area}, {"bare", m.bare}});

@@ -116,8 +116,9 @@ bool isSurface(const std::string& path, std::string& error) {
     const bool glb = text.starts_with("glTF");
     if (glb && text.find(kSurfaceExtension) != std::string::npos) return true;
     // A model as modelling programs write it is what a user may well try first.
-    const bool model =
-        glb || (std::filesystem::path(path).extension() == ".gltf" && text.find("\"asset\"") != std::string::npos);
+    const std::string ending = std::filesystem::path(path).extension().string();
+    const bool model = glb || (ending == ".gltf" && text.find("\"asset\"") != std::string::npos) || ending == ".obj" ||
+                       ending == ".ply" || ending == ".stl" || ending == ".fbx";
     error = path + (model ? ": isn't baked yet: espalier-bake " + path + " -o SURFACE.glb (tools/run does it for you)"
                           : ": neither a scene (.json), a town (.geojson) nor a baked surface (.glb)");
     return false;

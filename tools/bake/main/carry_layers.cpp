@@ -90,6 +90,13 @@ Result<std::vector<CarriedFile>> carryLayers(const CarryArguments& arguments, co
     if (arguments.from.empty()) return files;
     auto from = readSurface(arguments.from);
     if (!from) return std::move(from.failure());
+    if (from->origin != to.origin) {
+        char text[200];
+        std::snprintf(text, sizeof text,
+                      "it had another origin: to leave it where scenes have it, bake with --origin %.15g %.15g %.15g",
+                      from->origin.x, from->origin.y, from->origin.z);
+        notes.push_back({arguments.from, 0, 0, {}, text, true});
+    }
     if (!arguments.seeds.empty())
         if (Status told = findLostSeeds({arguments.seeds, arguments.from, output}, *from, to, notes); !told)
             return std::move(told.failure());

@@ -24,8 +24,8 @@ struct Item {
 };
 
 // All models below `folder` but not in `out`, sorted, the same list on every machine: .gltf, .glb, .obj, .ply, .ply.gz,
-// without surfaces and hidden files. A surface is named after its model; where two would share a name, both keep their
-// ending.
+// .stl, without surfaces and hidden files. A surface is named after its model; where two would share a name, both keep
+// their ending.
 Result<std::vector<Item>> listModels(const std::string& folder, const std::string& out);
 
 // What one model came to: the report's row.

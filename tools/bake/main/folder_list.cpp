@@ -16,7 +16,7 @@ size_t endingOf(const std::string& name) {
     for (char& c : small) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
     auto endsWith = [&](std::string_view end) { return small.size() > end.size() && small.ends_with(end); };
     if (endsWith(".surface.glb")) return 0;
-    for (std::string_view ending : {".gltf", ".glb", ".obj", ".ply", ".ply.gz"})
+    for (std::string_view ending : {".gltf", ".glb", ".obj", ".ply", ".ply.gz", ".stl"})
         if (endsWith(ending)) return ending.size();
     return 0;
 }
@@ -38,7 +38,7 @@ Result<std::vector<Item>> listModels(const std::string& folder, const std::strin
         }
     }
     if (error) return Failure(folder, "cannot be listed: " + error.message());
-    if (names.empty()) return Failure(folder, "holds no models (.gltf, .glb, .obj, .ply)");
+    if (names.empty()) return Failure(folder, "holds no models (.gltf, .glb, .obj, .ply, .stl)");
     std::sort(names.begin(), names.end());
     auto stem = [](const std::string& name) { return name.substr(0, name.size() - endingOf(name)); };
     std::map<std::string, int> sharing;

@@ -159,6 +159,7 @@ int main(int argc, char** argv) {
         const InputKind kind = kindOf(arguments.model);
         if (const auto mistake = mistakeIn(app, arguments, kind)) return refuse(*mistake);
         arguments.bake.nearestTolerance = float(arguments.tolerance);
+        if (const auto& o = arguments.origin; o.size() == 3) arguments.importing.origin = glm::dvec3(o[0], o[1], o[2]);
         if (kind == InputKind::town) return runTown(arguments);
         return kind == InputKind::folder ? runFolder(arguments, app) : runModel(arguments);
     } catch (const std::bad_alloc&) {

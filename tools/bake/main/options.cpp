@@ -22,12 +22,14 @@ bool fits(const std::string& group, InputKind kind) {
 }
 
 bool hasOneSceneAndUvs(const std::string& model) {
-    return model.ends_with(".obj") || model.ends_with(".ply") || model.ends_with(".ply.gz");
+    return model.ends_with(".obj") || model.ends_with(".ply") || model.ends_with(".ply.gz") || model.ends_with(".stl");
 }
 
 void addPlaces(CLI::App& app, Arguments& arguments) {
-    app.add_option("MODEL", arguments.model,
-                   ".gltf, .glb, .obj or .ply; a folder of such; or footprints: .geojson, or a plan in .json")
+    app.add_option(
+           "MODEL", arguments.model,
+           ".gltf, .glb, .obj, .ply or .stl, or .fbx and others through the program assimp; a folder of such; or "
+           "footprints: .geojson, or a plan in .json")
         ->required();
     app.add_option("-o,--output", arguments.output,
                    "the surface to write (.glb); or the folder for surfaces and their report; or the town (.glb)")
@@ -78,6 +80,12 @@ void addBakeOptions(CLI::App& app, Arguments& arguments) {
         ->group(kOfModels);
     app.add_option("--scene", arguments.importing.scene, "which of a glTF file's scenes, from 0; else its default one")
         ->check(CLI::Range(0, 65535))
+        ->group(kOfModels);
+    app.add_option("--origin", arguments.origin,
+                   "X Y Z, metres: what is taken off all positions (default: nothing, but for models so far away that "
+                   "single precision can't hold them)")
+        ->expected(3)
+        ->check(CLI::Range(-1e9, 1e9))
         ->group(kOfModels);
     app.add_option("--bare", arguments.importing.bare,
                    "nothing grows on materials of this name, as '*window*', small and capital letters alike; may be "

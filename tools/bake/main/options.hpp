@@ -19,6 +19,7 @@ struct Arguments {
     CarryArguments carry;
     ImportOptions importing;
     BakeOptions bake;
+    std::vector<double> origin;  // three, or none
     double tolerance = 0;
     unsigned jobs = 0;
     bool quiet = false;
