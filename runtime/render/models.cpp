@@ -198,10 +198,4 @@ float Models::lengthUnit() const {
     return models_.empty() ? 1.0f : espalier::lengthUnit(least, most);
 }
 
-float lengthUnit(float least, float most) {
-    constexpr float kSmall = 1, kLarge = 200;  // metres
-    if (most < kSmall) return std::max(most, 1e-6f) / 6;
-    return least >= kLarge ? least / 6 : 1.0f;
-}
-
 }  // namespace espalier

@@ -8,6 +8,7 @@
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/render/ground.hpp"
+#include "runtime/surface/length_unit.hpp"
 #include "runtime/surface/surface.hpp"
 #include "shaders/render/frame_records.h"
 
@@ -17,10 +18,6 @@ namespace espalier {
 // picture, as render/model_cut_depth.vert.
 void takeModelVertices(GraphicsDesc& desc);
 void takeModelPositions(GraphicsDesc& desc, bool pictured = false);
-
-// What counts as a metre: a metre, unless all models are far too small or too large for that. Then the longest side of
-// the largest, or of the smallest, counts as six. least, most: the models' longest sides, the shortest and the longest.
-float lengthUnit(float least, float most);
 
 // The drawn meshes of the surfaces on the GPU, with their textures.
 class Models {
