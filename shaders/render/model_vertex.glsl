@@ -1,5 +1,5 @@
 // A vertex of the surface's own mesh: all that shading asks for, or, where ESPALIER_DEPTH_ONLY is defined, its place, with
-// ESPALIER_CUT_OUT also where it lies in its picture.
+// ESPALIER_CUT_OUT also where it lies in its picture. ESPALIER_MAPPED: of two UV sets.
 // Drawn twice: what is shaded must meet the depth that went ahead, so positions are never fused or reordered.
 #include "shaders/render/frame.glsl"
 
@@ -13,8 +13,13 @@ layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 uvs;
+#ifdef ESPALIER_MAPPED
+layout(location = 4) in vec2 vertexOtherUv;
+layout(location = 4) out vec2 otherUv;
+#endif
 #elif defined(ESPALIER_CUT_OUT)
 layout(location = 3) in vec4 vertexUvs;
+layout(location = 4) in vec2 vertexOtherUv;
 layout(location = 0) out vec2 uv;
 #endif
 
@@ -32,8 +37,12 @@ void main() {
     tangent = vec4(dot(push.toWorld[0].xyz, vertexTangent.xyz), dot(push.toWorld[1].xyz, vertexTangent.xyz),
                    dot(push.toWorld[2].xyz, vertexTangent.xyz), vertexTangent.w);
     uvs = vertexUvs;
+#ifdef ESPALIER_MAPPED
+    otherUv = vertexOtherUv;
+#endif
 #elif defined(ESPALIER_CUT_OUT)
-    uv = vertexUvs.xy;
+    vec3 looked = vec3(push.colorOther != 0u ? vertexOtherUv : vertexUvs.xy, 1.0);
+    uv = vec2(dot(push.colorU, looked), dot(push.colorV, looked));
 #endif
     precise vec4 clip = frame.viewProjection * vec4(at, 1.0);
     gl_Position = clip;
