@@ -19,9 +19,15 @@ glm::vec4 shownColor(const Material& material) {
     return lost ? glm::vec4(0.30f, 0.285f, 0.26f, c.w) : c;
 }
 
-constexpr float kShadowCutoff = 0.5f;    // of what is blended: where it is denser it casts shadow
+constexpr float kBlendCutoff = 0.5f;     // of what is blended: where it is denser it casts shadow
 constexpr float kJump = 0.3f;            // of its distance from a model: an eye that moves by more looks from elsewhere
 constexpr float kMeadowReach = 0.0895f;  // units above the ground to which model.frag's addMeadow() has an effect
+
+// Where it is cut out when it is drawn as opaque.
+float cutoffOf(const Material& m) {
+    const bool picture = m.blended && m.transmission == 0 && m.baseColorImage >= 0 && m.baseColor.a >= 0.5f;
+    return picture ? kBlendCutoff : m.alphaCutoff;
+}
 
 }  // namespace
 
@@ -116,6 +122,7 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
                 if (material.blended && with.glassApart) continue;
                 ModelPush push = pushOf(model, which, material, with.walkData ? index : kNoIndex);
                 push.fade = fade;
+                push.alphaCutoff = cutoffOf(material);
                 pass.drawBacks(showsBacks(model, mesh, material));
                 const uint32_t foot = footOf(model, mesh, r, with.groundLevel, with.unit);
                 const auto drawPart = [&](bool isFoot, uint32_t first, uint32_t count) {
@@ -152,7 +159,7 @@ void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fadi
             const Mesh& mesh = model.meshes[which];
             for (const DrawRange& range : mesh.ranges) {
                 const Material& material = model.materialOf(range);
-                if (material.alphaCutoff > 0 || (material.blended && glassApart)) continue;
+                if (cutoffOf(material) > 0 || (material.blended && glassApart)) continue;
                 ModelPush push = pushOf(model, which, material, index);
                 push.fade = fade;
                 pass.drawBacks(showsBacks(model, mesh, material));
@@ -176,7 +183,7 @@ void Models::drawDepth(DrawPass& pass, const Program& whole, const Program& cut,
             if (material.transmission > 0) continue;  // glass lets the sun through
             const DrawPass::IndexRange draw{range.indexCount, range.firstIndex, model.meshes[mesh].firstVertex};
             ModelPush push = pushOf(model, mesh, material, index);
-            if (material.blended) push.alphaCutoff = kShadowCutoff;
+            if (material.blended) push.alphaCutoff = kBlendCutoff;
             if (push.alphaCutoff > 0)
                 pass.drawIndexed(cut, draw, push,
                                  {{pictureOr(model.colors, material.baseColorImage, white_), sampler_}, frame});

@@ -20,6 +20,14 @@ void import(Bytes bytes, std::string_view ending) {
     require(model->triangleMaterial.empty() || model->triangleMaterial.size() * 3 == model->indices.size(),
             "a material a triangle");
     for (uint32_t m : model->triangleMaterial) require(m < model->materials.size(), "materials exist");
+    require(model->otherUvs.empty() || model->otherUvs.size() == vertices, "a second UV a vertex");
+    const int images = int(model->images.size());
+    for (const Material& m : model->materials) {
+        for (int image : {m.baseColorImage, m.normalImage, m.emissiveImage}) require(image < images, "images exist");
+        for (const TextureMap* map : {&m.baseColorMap, &m.normalMap, &m.emissiveMap})
+            require(map->set == 0 || (map->set == 1 && !model->otherUvs.empty()) || model->uvs.empty(),
+                    "UV sets exist");
+    }
 }
 
 }  // namespace

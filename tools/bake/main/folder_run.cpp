@@ -63,6 +63,8 @@ Row bakeOne(const Options& options, const Item& item, const std::string& surface
         return row;
     } catch (const std::bad_alloc&) {
         return rowOf(item, "failed", item.model + ": baking it takes more memory than there is");
+    } catch (const std::exception& e) {  // of the file system, say
+        return rowOf(item, "failed", item.model + ": " + e.what());
     }
 }
 
