@@ -74,6 +74,13 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
     state.blendEnable = VK_TRUE;
     state.srcColorBlendFactor = state.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
     state.srcAlphaBlendFactor = state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    if (blend == Blend::multiply) {
+        state.srcColorBlendFactor = state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+        state.dstColorBlendFactor = VK_BLEND_FACTOR_SRC_COLOR;
+    } else if (blend == Blend::over) {
+        state.dstColorBlendFactor = state.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+    }
     return state;
 }
 

@@ -23,7 +23,9 @@ inline ProgramOptions exactly(std::vector<SpecConstant> constants = {}) {
     return {true, std::move(constants)};
 }
 
-enum class Blend { none, additive };
+// over: colours are premultiplied by alpha and go over what is there; alpha takes of what is there, and adds nothing.
+// multiply: of colours; alpha stays.
+enum class Blend { none, additive, over, multiply };
 
 // Input `location` of a vertex shader: so many bytes into a vertex.
 struct VertexInput {

@@ -23,20 +23,21 @@ Result<Image> makeNormals(Device& device, std::string_view name, uint32_t width,
 
 }  // namespace
 
-void takeModelVertices(GraphicsDesc& desc) {
+void takeModelVertices(GraphicsDesc& desc, bool mapped) {
     desc.vertexBytes = sizeof(DrawVertex);
     desc.inputs = {{0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(DrawVertex, position)},
                    {1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(DrawVertex, normal)},
                    {2, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(DrawVertex, tangent)},
                    {3, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(DrawVertex, uv)},  // and walkUv
                    {5, VK_FORMAT_R16G16B16A16_UNORM, offsetof(DrawVertex, colour)}};
+    if (mapped) desc.inputs.push_back({4, VK_FORMAT_R32G32_SFLOAT, offsetof(DrawVertex, otherUv)});
 }
 
 void takeModelPositions(GraphicsDesc& desc, bool pictured) {
-    takeModelVertices(desc);
+    takeModelVertices(desc, pictured);
     // What is cut out depends on the picture's and the vertices' alpha.
-    std::erase_if(desc.inputs, [&](const auto& input) {
-        return input.location != 0 && !(pictured && (input.location == 3 || input.location == 5));
+    std::erase_if(desc.inputs, [&](const VertexInput& input) {
+        return input.location != 0 && !(pictured && input.location >= 3);
     });
 }
 
@@ -92,10 +93,11 @@ Models::Storeys Models::intoStoreys(const Model& model, std::span<const DrawVert
 Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& model) {
     std::vector<DrawVertex> vertices = data.vertices;
     std::vector<uint32_t> indices = data.indices;
-    model.meshes.push_back({0, data.ranges, {}, 0});
+    model.meshes.push_back({.ranges = data.ranges});
     const float scale = glm::length(glm::vec3(model.toWorld[0]));
     for (const CoarserMesh& mesh : data.coarser) {
-        model.meshes.push_back({int32_t(vertices.size()), mesh.ranges, {}, mesh.error * scale});
+        model.meshes.push_back(
+            {.firstVertex = int32_t(vertices.size()), .ranges = mesh.ranges, .error = mesh.error * scale});
         for (DrawRange& range : model.meshes.back().ranges) range.firstIndex += uint32_t(indices.size());
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
@@ -107,9 +109,13 @@ Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& mode
         for (const DrawRange& range : mesh.ranges) {
             const auto corners = std::span(indices).subspan(range.firstIndex, range.indexCount);
             mesh.storeys.push_back(intoStoreys(model, from, corners));
-            if (model.materialOf(range).alphaCutoff == 0) opaque.insert(opaque.end(), corners.begin(), corners.end());
+            const Material& material = model.materialOf(range);
+            if (material.alphaCutoff == 0 && !material.blended)
+                opaque.insert(opaque.end(), corners.begin(), corners.end());
         }
         mesh.solidAbove = solidAbove(from, opaque, model.up);
+        for (const DrawRange& range : mesh.ranges)
+            mesh.panes.push_back(model.materialOf(range).blended ? intoPanes(from, range, indices) : Panes{});
     }
     if (Status made = assign(model.vertices, makeBuffer(device, "model vertices", vertices)); !made)
         return made.failure();
@@ -126,6 +132,7 @@ Status Models::uploadPictures(Device& device, const SurfaceData& data, Model& mo
             Result<Image> (*make)(Device&, std::string_view, uint32_t, uint32_t, std::span<const uint8_t>);
             const char* name;
         } uses[] = {{material.baseColorImage, model.colors, makeColorTexture, "model colour"},
+                    {material.emissiveImage, model.colors, makeColorTexture, "model emission"},
                     {material.normalImage, model.normals, makeNormals, "model normals"}};
         for (const auto& use : uses) {
             if (use.index < 0 || size_t(use.index) >= data.images.size() || use.images[size_t(use.index)]) continue;
@@ -162,6 +169,7 @@ Status Models::set(Device& device, uint32_t index, const SurfaceData& data, cons
     if (model.materials.empty()) model.materials.emplace_back();
     if (Status s = uploadMeshes(device, data, model); !s) return s;
     if (Status s = uploadPictures(device, data, model); !s) return s;
+    if (Status s = uploadRecords(device, model); !s) return s;
     models_.insert_or_assign(index, std::move(model));
     ++revision_;
     return Done{};
@@ -200,12 +208,6 @@ float Models::lengthUnit() const {
         most = std::max(most, side);
     }
     return models_.empty() ? 1.0f : espalier::lengthUnit(least, most);
-}
-
-float lengthUnit(float least, float most) {
-    constexpr float kSmall = 1, kLarge = 200;  // metres
-    if (most < kSmall) return std::max(most, 1e-6f) / 6;
-    return least >= kLarge ? least / 6 : 1.0f;
 }
 
 }  // namespace espalier

@@ -8,19 +8,21 @@
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/render/ground.hpp"
+#include "runtime/surface/length_unit.hpp"
 #include "runtime/surface/surface.hpp"
 #include "shaders/render/frame_records.h"
 
 namespace espalier {
 
-// What render/model.vert reads of a vertex, and what render/model_depth.vert does. pictured: also the place in its
-// picture, as render/model_cut_depth.vert.
-void takeModelVertices(GraphicsDesc& desc);
+// What render/model.vert reads of a vertex, and what render/model_depth.vert does. mapped: also the second UV set, as
+// render/model_mapped.vert. pictured: also the place in its picture, as render/model_cut_depth.vert.
+void takeModelVertices(GraphicsDesc& desc, bool mapped = false);
 void takeModelPositions(GraphicsDesc& desc, bool pictured = false);
 
-// What counts as a metre: a metre, unless all models are far too small or too large for that. Then the longest side of
-// the largest, or of the smallest, counts as six. least, most: the models' longest sides, the shortest and the longest.
-float lengthUnit(float least, float most);
+// What is drawn where a material has no picture, or its own is damaged.
+inline const Image& pictureOr(const std::vector<Image>& images, int index, const Image& other) {
+    return index >= 0 && size_t(index) < images.size() && images[size_t(index)] ? images[size_t(index)] : other;
+}
 
 // The drawn meshes of the surfaces on the GPU, with their textures.
 class Models {
@@ -39,22 +41,37 @@ class Models {
     void choose(const FrameRecord& frame, float pixels, bool atOnce = false);
     static constexpr uint32_t kFadeFrames = 8;
 
+    // Whether some of them have materials that aren't plain: programs for these are made when there are any.
+    bool anyMapped() const;  // textures by UVs of their own, or light
+    bool anyGlass() const;   // blended with what lies behind
+
     // Draws all of them as chosen, but for those that are ground only if `drawnOnly`: triangles over which the meadow at
-    // meadowLevel, in metres of `unit`, may grow by `foot`, all others by `program`. ground: of it the meadow is made,
-    // and their grain.
+    // meadowLevel, in metres of `unit`, may grow by `foot`, all others by `program`; of materials that aren't plain by
+    // `mapped`. ground: of it the meadow is made, and their grain. glassApart: drawGlass() draws what is blended, else
+    // it is drawn as if it weren't.
+    struct Programs {
+        const Program *program, *foot;
+    };
     struct Drawn {
-        const Program &program, &foot;
+        Programs plain, mapped;
         const Buffer& frame;
         Binding shadow;
         const Ground& ground;
         Shading shading = Shading::full;
-        bool walkData = false, drawnOnly = false;
+        bool walkData = false, drawnOnly = false, glassApart = false;
         float meadowLevel = 0, unit = 1;
     };
     void draw(DrawPass& pass, const Drawn& with) const;
+    // What is blended, over all that has been drawn, the farthest along the view first: ranges by their middles,
+    // triangles of a range by theirs. tint: takes from what lies behind what coloured glass doesn't let through.
+    struct GlassPrograms {
+        const Program &tint, &glass;
+    };
+    void drawGlass(DrawPass& pass, const Drawn& with, const GlassPrograms& programs, glm::vec3 forward) const;
     // The depths of what draw() draws without cut-outs: they go ahead, so that it shades only what is seen. fading: for
     // models of which two meshes are drawn.
-    void drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame) const;
+    void drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame,
+                   bool glassApart) const;
     // The simplest meshes with an error of at most `error` metres.
     void drawDepth(DrawPass& pass, const Program& whole, const Program& cut, const Buffer& frame, float error) const;
 
@@ -71,13 +88,20 @@ class Models {
     // those below it.
     static constexpr uint32_t kStoreys = 32;
     using Storeys = std::array<uint32_t, kStoreys>;
+    // A range that is blended: its indices from firstIndex on, once for each of the directions by which they are
+    // sorted.
+    struct Panes {
+        uint32_t firstIndex = 0;
+        glm::vec3 middle{0};
+    };
     // One of a model's meshes; all of them lie in the same buffers.
     struct Mesh {
         int32_t firstVertex = 0;
-        std::vector<DrawRange> ranges;
-        std::vector<Storeys> storeys;  // [range]
-        float error = 0;               // metres in the world
-        float solidAbove = 0;          // as of solid.hpp, along Model::up; of what has no cut-outs
+        std::vector<DrawRange> ranges{};
+        std::vector<Storeys> storeys{};  // [range]
+        std::vector<Panes> panes{};      // [range]
+        float error = 0;                 // metres in the world
+        float solidAbove = 0;            // as of solid.hpp, along Model::up; of what has no cut-outs
     };
     struct Model {
         Buffer vertices, indices;
@@ -88,6 +112,7 @@ class Models {
         bool seen = true;  // some of it may lie in the view
         std::vector<Material> materials;
         std::vector<Image> colors, normals;  // one a picture of the file; empty where unused in that role
+        std::vector<Buffer> records;         // one a material: MaterialRecord, of those that aren't plain
         glm::vec3 objectLow{0}, objectHigh{0};
         glm::mat4 toWorld{1};
         glm::vec3 low{0}, high{0};     // world
@@ -104,6 +129,13 @@ class Models {
     static uint32_t footOf(const Model& model, const Mesh& mesh, size_t range, float groundLevel, float unit);
     Status uploadMeshes(Device& device, const SurfaceData& data, Model& model);
     Status uploadPictures(Device& device, const SurfaceData& data, Model& model);
+    Status uploadRecords(Device& device, Model& model);
+    // Appends a range's triangles in the order of each direction.
+    static Panes intoPanes(std::span<const DrawVertex> vertices, const DrawRange& range,
+                           std::vector<uint32_t>& indices);
+    static bool isMapped(const Material& material);
+    void drawMapped(DrawPass& pass, const Program& program, const Drawn& with, const Model& model,
+                    const DrawRange& range, const DrawPass::IndexRange& indices, const ModelPush& push) const;
     ModelPush pushOf(const Model& model, uint32_t mesh, const Material& material, uint32_t surface) const;
     static bool standsAs(const Model& model);
     // Where `eye` is, the mesh's backs may be seen.
@@ -119,5 +151,15 @@ class Models {
     glm::vec3 eye_{0};  // as chosen for
     float groundLevel_ = 0;
 };
+
+// each(mesh, fade): the mesh that is drawn, or the two that share the picture.
+template <class Each>
+void Models::overShown(const Model& model, const Each& each) {
+    if (model.step == kFadeFrames) return each(model.shown, 1.0f);
+    // Pixels go to the coarser one in one order and come back in the same.
+    const float share = float(model.step) / kFadeFrames, coarser = model.shown > model.before ? share : 1 - share;
+    each(std::max(model.shown, model.before), coarser);
+    each(std::min(model.shown, model.before), -coarser);
+}
 
 }  // namespace espalier

@@ -9,21 +9,25 @@
 namespace espalier {
 namespace {
 
-const Image& pictureOr(const std::vector<Image>& images, int index, const Image& other) {
-    return index >= 0 && size_t(index) < images.size() && images[size_t(index)] ? images[size_t(index)] : other;
-}
-
 // Nothing real is wholly black or wholly white, yet converters leave zero where they lost the material (FBX's Lambert)
-// and a file without materials means one. Such a surface is drawn as plaster, so that light and shadow show on it.
+// and a file without materials means one. Such a surface is drawn as plaster, so that light and shadow show on it. What
+// shines by itself is black on purpose.
 glm::vec4 shownColor(const Material& material) {
     const glm::vec4 c = material.baseColor;
-    const bool lost = material.baseColorImage < 0 && !material.coloured &&
+    const bool lost = material.baseColorImage < 0 && !material.coloured && material.emissive == glm::vec3(0) &&
                       (std::max({c.x, c.y, c.z}) < 1e-4f || std::min({c.x, c.y, c.z}) > 0.999f);
     return lost ? glm::vec4(0.30f, 0.285f, 0.26f, c.w) : c;
 }
 
+constexpr float kBlendCutoff = 0.5f;     // of what is blended: where it is denser it casts shadow
 constexpr float kJump = 0.3f;            // of its distance from a model: an eye that moves by more looks from elsewhere
 constexpr float kMeadowReach = 0.0895f;  // units above the ground to which model.frag's addMeadow() has an effect
+
+// Where it is cut out when it is drawn as opaque.
+float cutoffOf(const Material& m) {
+    const bool picture = m.blended && m.transmission == 0 && m.baseColorImage >= 0 && m.baseColor.a >= 0.5f;
+    return picture ? kBlendCutoff : m.alphaCutoff;
+}
 
 }  // namespace
 
@@ -96,17 +100,11 @@ ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& mate
     push.surface = surface;
     push.lod = mesh;
     push.fade = 1;
+    push.colorOther = material.baseColorMap.set;
+    const auto rows = rowsOf(material.baseColorMap);
+    push.colorU = rows[0];
+    push.colorV = rows[1];
     return push;
-}
-
-// each(mesh, fade): the mesh that is drawn, or the two that share the picture.
-template <class Each>
-void Models::overShown(const Model& model, const Each& each) {
-    if (model.step == kFadeFrames) return each(model.shown, 1.0f);
-    // Pixels go to the coarser one in one order and come back in the same.
-    const float share = float(model.step) / kFadeFrames, coarser = model.shown > model.before ? share : 1 - share;
-    each(std::max(model.shown, model.before), coarser);
-    each(std::min(model.shown, model.before), -coarser);
 }
 
 void Models::draw(DrawPass& pass, const Drawn& with) const {
@@ -121,13 +119,19 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
             for (size_t r = 0; r < mesh.ranges.size(); ++r) {
                 const DrawRange& range = mesh.ranges[r];
                 const Material& material = model.materialOf(range);
+                if (material.blended && with.glassApart) continue;
                 ModelPush push = pushOf(model, which, material, with.walkData ? index : kNoIndex);
                 push.fade = fade;
+                push.alphaCutoff = cutoffOf(material);
                 pass.drawBacks(showsBacks(model, mesh, material));
                 const uint32_t foot = footOf(model, mesh, r, with.meadowLevel, with.unit);
-                const auto drawPart = [&](const Program& program, uint32_t first, uint32_t count) {
+                const auto drawPart = [&](bool isFoot, uint32_t first, uint32_t count) {
                     if (count == 0) return;
-                    pass.drawIndexed(program, {count, range.firstIndex + first, mesh.firstVertex}, push,
+                    const Programs& programs = isMapped(material) ? with.mapped : with.plain;
+                    const Program& program = isFoot ? *programs.foot : *programs.program;
+                    const DrawPass::IndexRange indices{count, range.firstIndex + first, mesh.firstVertex};
+                    if (isMapped(material)) return drawMapped(pass, program, with, model, range, indices, push);
+                    pass.drawIndexed(program, indices, push,
                                      {{pictureOr(model.colors, material.baseColorImage, white_), sampler},
                                       {pictureOr(model.normals, material.normalImage, flat_), sampler},
                                       with.shadow,
@@ -136,8 +140,8 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
                                       with.ground.pavingBinding(quick),
                                       with.frame});
                 };
-                drawPart(with.foot, 0, foot);
-                drawPart(with.program, foot, range.indexCount - foot);
+                drawPart(true, 0, foot);
+                drawPart(false, foot, range.indexCount - foot);
             }
         };
         overShown(model, drawMesh);
@@ -145,7 +149,8 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
     pass.drawBacks(true);
 }
 
-void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame) const {
+void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame,
+                       bool glassApart) const {
     for (const auto& [index, model] : models_) {
         if (!model.seen || model.groundOnly) continue;
         pass.setVertices(model.vertices);
@@ -154,7 +159,7 @@ void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fadi
             const Mesh& mesh = model.meshes[which];
             for (const DrawRange& range : mesh.ranges) {
                 const Material& material = model.materialOf(range);
-                if (material.alphaCutoff > 0) continue;
+                if (cutoffOf(material) > 0 || (material.blended && glassApart)) continue;
                 ModelPush push = pushOf(model, which, material, index);
                 push.fade = fade;
                 pass.drawBacks(showsBacks(model, mesh, material));
@@ -175,9 +180,11 @@ void Models::drawDepth(DrawPass& pass, const Program& whole, const Program& cut,
         const uint32_t mesh = simplest(model, error);
         for (const DrawRange& range : model.meshes[mesh].ranges) {
             const Material& material = model.materialOf(range);
+            if (material.transmission > 0) continue;  // glass lets the sun through
             const DrawPass::IndexRange draw{range.indexCount, range.firstIndex, model.meshes[mesh].firstVertex};
-            const ModelPush push = pushOf(model, mesh, material, index);
-            if (material.alphaCutoff > 0)
+            ModelPush push = pushOf(model, mesh, material, index);
+            if (material.blended) push.alphaCutoff = kBlendCutoff;
+            if (push.alphaCutoff > 0)
                 pass.drawIndexed(cut, draw, push,
                                  {{pictureOr(model.colors, material.baseColorImage, white_), sampler_}, frame});
             else

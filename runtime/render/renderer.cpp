@@ -78,25 +78,30 @@ Status RendererImpl::removeProps() {
     return Done{};
 }
 
+Models::Drawn RendererImpl::modelsDrawn(const DrawInputs& inputs) const {
+    const bool onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
+    return {{&now_.scene->model, &now_.scene->modelFoot},
+            {&now_.scene->modelMapped, &now_.scene->modelMappedFoot},
+            *now_.frame,
+            {shadowMap_, shadowSampler_},
+            ground_,
+            now_.shading,
+            inputs.surfaces.v != nullptr,
+            !onGround,
+            now_.glass,
+            now_.meadowLevel,
+            now_.unit};
+}
+
 // All that growth stands among. Of a moving picture a software device begins with what comes before a time stamp, in
 // all threads, while one sets up the rest.
 void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post) {
-    const bool onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
     std::optional<Pass> part;
     const auto begin = [&](const char* name) {
         if (isQuick(now_.shading)) part.emplace(pass.commands(), name);
     };
     begin("draw models");
-    models_.draw(pass, {now_.scene->model,
-                        now_.scene->modelFoot,
-                        *now_.frame,
-                        {shadowMap_, shadowSampler_},
-                        ground_,
-                        now_.shading,
-                        inputs.surfaces.v != nullptr,
-                        !onGround,
-                        now_.meadowLevel,
-                        now_.unit});
+    models_.draw(pass, modelsDrawn(inputs));
     if (now_.furnished) {
         begin("draw props");
         props_->draw(pass, *now_.frame, {shadowMap_, shadowSampler_},
@@ -116,7 +121,7 @@ Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, co
         depths.depth = DepthTarget{.view = targets_.depth.view(), .clear = 0.0f};
         commands.transition(targets_.depth, ImageState::depthTarget, true);
         DrawPass pass(commands, "draw ahead", depths);
-        models_.drawAhead(pass, modelAhead_, modelAheadFading_, *now_.frame);
+        models_.drawAhead(pass, modelAhead_, modelAheadFading_, *now_.frame, now_.glass);
         return Done{};
     }
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
@@ -198,6 +203,11 @@ void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, cons
     }
     if (now_.ahead) drawSurroundings(pass, inputs, post);
     if (!now_.hosted) drawSky(pass, frame, post);
+    if (now_.glass) {
+        std::optional<Pass> part;
+        if (isQuick(now_.shading)) part.emplace(commands, "draw glass");
+        models_.drawGlass(pass, modelsDrawn(inputs), {now_.scene->tint, now_.scene->glass}, frame.rayForward);
+    }
 }
 
 void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
@@ -267,10 +277,10 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
     now_ = {};
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;
     const GrowthView& growth = inputs.growth;
+    now_.hosted = target.image && target.host.depth;
     if (Status s = pickScene(shownView(inputs), inputs.look.quick); !s) return s;
     now_.grows = growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
     now_.roofed = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
-    now_.hosted = target.image && target.host.depth;
     if (now_.hosted && !merge_) {
         auto made = HostMerge::create(device_, targets_.samples);
         if (!made) return made.failure();

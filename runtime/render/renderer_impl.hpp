@@ -46,13 +46,15 @@ class RendererImpl final : public Renderer {
     Status drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target);
     // The programs that draw what is lit: one set for each kind of shading, one for the view that counts fragments.
     struct ScenePrograms {
-        Program model, modelFoot, bark, barkSmall, leaf, leafSmall;
+        Program model, modelFoot, modelMapped, modelMappedFoot, tint, glass, bark, barkSmall, leaf, leafSmall;
         struct Lit {
             Program light, draw;
         };
         Lit litBark, litLeaves[2];  // of quick ones (lit.glsl): leaves of three vertices, and of four, if there are any
     };
     Status makeScene(ScenePrograms& programs, Shading shading) const;
+    // Those of materials that aren't plain, of which most scenes have none.
+    Status makeRareScene(ScenePrograms& programs, Shading shading) const;
     Status makeSceneProgram(Program& program, const char* name, const char* vertex, const char* fragment,
                             std::vector<SpecConstant> constants, Blend blend) const;
     Status pickScene(ViewMode shown, bool quick);
@@ -72,6 +74,7 @@ class RendererImpl final : public Renderer {
     Status drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun);
     Status aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
                           float radius, FrameRecord& frame);
+    Models::Drawn modelsDrawn(const DrawInputs& inputs) const;
     void drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post);
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
     // A number for the models and props of this recording.
@@ -127,6 +130,7 @@ class RendererImpl final : public Renderer {
         bool plain = false;  // growth and props are drawn as in the shaded view
         bool lit = false;    // what has few vertices has been lit ahead
         bool ahead = false;  // models' depths went ahead, they are shaded after growth
+        bool glass = false;  // what is blended is drawn last
         float meadowLevel = 0, unit = 1;  // where grass grows over models
         const Buffer* frame = nullptr;
         bool shadowsBehind = false;  // what this picture shows

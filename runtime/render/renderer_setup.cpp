@@ -81,6 +81,8 @@ Status RendererImpl::makeSceneProgram(Program& program, const char* name, const 
     desc.blend = blend;
     desc.options.constants = std::move(constants);
     if (std::string_view(vertex) == "render/model.vert") takeModelVertices(desc);
+    if (std::string_view(vertex) == "render/model_mapped.vert") takeModelVertices(desc, true);
+    desc.depthWrite = blend != Blend::over && blend != Blend::multiply;
     return assign(program, Program::graphics(device_, desc));
 }
 
@@ -111,6 +113,25 @@ Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading) const {
     return Done{};
 }
 
+Status RendererImpl::makeRareScene(ScenePrograms& programs, Shading shading) const {
+    const auto make = [&](Program& program, const char* name, const char* fragment, bool rest, Blend blend) -> Status {
+        if (program) return Done{};
+        return makeSceneProgram(program, name, "render/model_mapped.vert", fragment,
+                                constantsOf(shading, holdsRoots(device_), rest), blend);
+    };
+    if (models_.anyMapped()) {
+        const Blend blend = blendOf(shading);
+        if (Status s = make(programs.modelMappedFoot, "mapped model's foot", "render/model_mapped.frag", true, blend);
+            !s)
+            return s;
+        if (Status s = make(programs.modelMapped, "mapped model", "render/model_mapped.frag", false, blend); !s)
+            return s;
+    }
+    if (!now_.glass) return Done{};
+    if (Status s = make(programs.tint, "glass tint", "render/model_tint.frag", false, Blend::multiply); !s) return s;
+    return make(programs.glass, "glass", "render/model_glass.frag", false, Blend::over);
+}
+
 Status RendererImpl::pickScene(ViewMode shown, bool quick) {
     const bool explained = shown != ViewMode::shaded, cheap = quick && device_.info().cpu;
     now_.plain = !explained || shown == ViewMode::layer;
@@ -121,7 +142,9 @@ Status RendererImpl::pickScene(ViewMode shown, bool quick) {
     else
         now_.shading = cheap ? Shading::quick : Shading::full;
     now_.scene = &scenes_[size_t(now_.shading)];
-    return makeScene(*now_.scene, now_.shading);
+    if (Status made = makeScene(*now_.scene, now_.shading); !made) return made;
+    now_.glass = !explained && !now_.hosted && models_.anyGlass();
+    return makeRareScene(*now_.scene, now_.shading);
 }
 
 Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {

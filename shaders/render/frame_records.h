@@ -75,8 +75,20 @@ struct ModelPush {
     uint surface;            // instance; kNoIndex: no walk data
     float fade;              // 1: all pixels; above 0: this share of them; below: those that -fade leaves out
     uint lod;                // 0: the mesh; then its coarser ones
+    uint colorOther;         // 1: the base colour is looked up in the second UV set
+    vec3 colorU, colorV;     // rows by which (u, v, 1) of it are multiplied; read by programs of such materials only
 };
-STATIC_SIZE(ModelPush, 88);
+STATIC_SIZE(ModelPush, 116);
+
+// What few materials have: maps of their textures, as ModelPush has that of the base colour, and light of their own.
+struct MaterialRecord {
+    vec3 normalU, normalV;
+    vec3 emissiveU, emissiveV;
+    vec3 emissive;
+    uint normalOther, emissiveOther;
+    float transmission;
+};
+STATIC_SIZE(MaterialRecord, 72);
 
 struct TerminalPush {
     uint bucket, firstVertex, vertexCount, batch;

@@ -1,5 +1,5 @@
 // A vertex of the surface's own mesh: all that shading asks for, or, where ESPALIER_DEPTH_ONLY is defined, its place, with
-// ESPALIER_CUT_OUT also where it lies in its picture.
+// ESPALIER_CUT_OUT also where it lies in its picture. ESPALIER_MAPPED: of two UV sets.
 // Drawn twice: what is shaded must meet the depth that went ahead, so positions are never fused or reordered.
 #include "shaders/render/frame.glsl"
 
@@ -15,8 +15,13 @@ layout(location = 1) out vec3 normal;
 layout(location = 2) out vec4 tangent;
 layout(location = 3) out vec4 uvs;
 layout(location = 5) out vec4 tint;   // the vertex's colour
+#ifdef ESPALIER_MAPPED
+layout(location = 4) in vec2 vertexOtherUv;
+layout(location = 4) out vec2 otherUv;
+#endif
 #elif defined(ESPALIER_CUT_OUT)
 layout(location = 3) in vec4 vertexUvs;
+layout(location = 4) in vec2 vertexOtherUv;
 layout(location = 5) in vec4 vertexColour;
 layout(location = 0) out vec3 uvAlpha;
 #endif
@@ -36,8 +41,12 @@ void main() {
                    dot(push.toWorld[2].xyz, vertexTangent.xyz), vertexTangent.w);
     uvs = vertexUvs;
     tint = vertexColour;
+#ifdef ESPALIER_MAPPED
+    otherUv = vertexOtherUv;
+#endif
 #elif defined(ESPALIER_CUT_OUT)
-    uvAlpha = vec3(vertexUvs.xy, vertexColour.a);
+    vec3 looked = vec3(push.colorOther != 0u ? vertexOtherUv : vertexUvs.xy, 1.0);
+    uvAlpha = vec3(dot(push.colorU, looked), dot(push.colorV, looked), vertexColour.a);
 #endif
     precise vec4 clip = frame.viewProjection * vec4(at, 1.0);
     gl_Position = clip;

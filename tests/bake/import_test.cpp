@@ -260,10 +260,13 @@ TEST_CASE("files damaged at random never crash the importer") {
     std::vector<std::string> files = {folder.file("own.glb")};
     for (const char* name :
          {"derived/hermes_draco.glb", "derived/hermes_gltfpack_cc.glb", "models/gltf_transform/BoxMeshopt.gltf",
-          "models/quaternius/1Story_GableRoof_Mat.glb", "models/kaykit_dungeon/pillar.glb"})
+          "models/quaternius/1Story_GableRoof_Mat.glb", "models/kaykit_dungeon/pillar.glb",
+          "reports/gltf_skin_root.glb", "reports/gltf_webp_required.glb", "reports/gltf_draco_norm_uv.glb",
+          "reports/gltf_specgloss_texture.glb", "reports/gltf_sparse_indices.glb"})
         if (auto path = dataFile(name)) files.push_back(*path);
     uint64_t state = 99;
     size_t refused = 0, total = 0;
+    files.push_back("tests/fuzz/corpus/gltf/rigged.gltf");
     for (const std::string& file : files) {
         auto bytes = readFile(file);
         REQUIRE(bytes);

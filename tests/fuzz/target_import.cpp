@@ -22,9 +22,14 @@ void check(Result<Model> model) {
     require(model->materialUvs.empty() || model->materialUvs.size() == vertices, "a material's UV a vertex");
     require(model->colours.empty() || model->colours.size() == vertices, "a colour a vertex");
     for (uint32_t m : model->triangleMaterial) require(m < model->materials.size(), "materials exist");
-    for (const Material& m : model->materials)
-        for (int image : {m.baseColorImage, m.normalImage})
-            require(image < int(model->images.size()), "materials' pictures exist");
+    require(model->otherUvs.empty() || model->otherUvs.size() == vertices, "a second UV a vertex");
+    const int images = int(model->images.size());
+    for (const Material& m : model->materials) {
+        for (int image : {m.baseColorImage, m.normalImage, m.emissiveImage}) require(image < images, "images exist");
+        for (const TextureMap* map : {&m.baseColorMap, &m.normalMap, &m.emissiveMap})
+            require(map->set == 0 || (map->set == 1 && !model->otherUvs.empty()) || model->uvs.empty(),
+                    "UV sets exist");
+    }
 }
 
 void importBytes(Bytes bytes, std::string_view ending) {

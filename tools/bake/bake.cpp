@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "runtime/core/jobs.hpp"
+#include "runtime/surface/length_unit.hpp"
 #include "tools/bake/bake_mesh.hpp"
 #include "tools/bake/beside.hpp"
 #include "tools/bake/contact.hpp"
@@ -18,6 +19,8 @@ namespace espalier {
 namespace {
 
 using namespace bakery;
+
+constexpr double kSeenGap = 0.01;  // metres: what is farther apart is seen apart, and not joined
 
 // Times stages and tells of progress.
 class Stages {
@@ -142,14 +145,29 @@ void reportLevels(const std::string& name, const SurfaceData& surface,
     }
 }
 
+Diagnostic describe(const std::string& name, const Thread& thread, const BakeOptions& options) {
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  "%u thin piece%s of material '%.60s', %.2g texels wide at %u (%.3g m at %.4g %.4g %.4g): ",
+                  thread.pieces, thread.pieces == 1 ? "" : "s", thread.material.c_str(), thread.texels,
+                  options.resolution, thread.metres, double(thread.at.x), double(thread.at.y), double(thread.at.z));
+    const std::string wish = thread.wants > 0 ? "bake at " + std::to_string(thread.wants) + " for plants to follow them"
+                                              : "no resolution is fine enough for plants to follow them";
+    return {name, 0, 0, {}, text + wish, true};
+}
+
+// Nobody sees a texel's gap from where all of the model is seen; closer by, a centimetre is one.
 double nearestTolerance(const SurfaceData& surface, const BakeOptions& options) {
     if (options.nearestTolerance > 0) return options.nearestTolerance;
+    const glm::vec3 size = surface.boundsMax - surface.boundsMin;
+    const float side = std::max({size.x, size.y, size.z});
+    const double seen = kSeenGap * double(lengthUnit(side, side));
     double area = 0, uv = 0;
     for (const Chart& c : surface.charts) {
         area += c.area;
         uv += double(c.area) / (double(c.metresPerUv) * c.metresPerUv);
     }
-    return std::sqrt(area / uv) / options.resolution;
+    return std::min(std::sqrt(area / uv) / options.resolution, seen);
 }
 
 }  // namespace
@@ -215,7 +233,7 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
     surface.origin = report.origin = model.origin;
     surface.charts = makeCharts(*mesh);
     surface.triangles = makeRecords(*mesh);
-    double tolerance = nearestTolerance(surface, options);
+    double tolerance = report.touching = nearestTolerance(surface, options);
     std::vector<Link> links = findLinks(*mesh, tolerance);
     surface.crossings = makeCrossings(*mesh, links);
     stages.begin(0.35f, "contacts");
@@ -257,6 +275,8 @@ Result<Baked> bake(const Model& asGiven, const BakeOptions& given) {
         },
         [&] { measure(model, *mesh, sides, drawn, surface, report); });
     reportLevels(model.name, surface, walkable, report);
+    report.threads = findThreads(model, *mesh, surface, options.resolution);
+    for (const Thread& thread : report.threads) report.warnings.push_back(describe(model.name, thread, options));
     stages.end();
     if (options.progress) options.progress(1.0f, "done");
     return out;

@@ -36,7 +36,7 @@ using Progress = std::function<void(float, const char*)>;
 struct BakeOptions {
     uint32_t resolution = 1024;  // of level 0: a power of two, 64 to 8192
     uint32_t levels = 0;         // 0: down to 64 texels
-    float nearestTolerance = 0;  // metres; 0: a texel's footprint
+    float nearestTolerance = 0;  // metres; 0: a texel's footprint, a centimetre at most
     bool keepLayout = false;     // true: charts are never moved, gutters or not (tests of analytic surfaces)
     UvPicture weights;           // drawn in the model's UVs: texels a metre, as a share of the most; empty: even
     bool contacts = true;        // false: pieces that touch are no ground for one plant (tests whose oracle knows none)
@@ -73,6 +73,16 @@ struct MaterialArea {
     bool bare = false;
 };
 
+// Pieces of one material that are much longer than wide, all of whose charts are less than four texels wide.
+struct Thread {
+    std::string material;
+    uint32_t pieces = 0;
+    double area = 0;                    // m²
+    double texels = 1e300, metres = 0;  // how wide the narrowest is
+    glm::vec3 at{0};                    // the middle of that one
+    uint32_t wants = 0;                 // the resolution at which it has four texels; 0: more than 8192
+};
+
 // The figures of a bake; see docs/surface_format.md for the meaning of each.
 struct BakeReport {
     std::string source;
@@ -80,6 +90,7 @@ struct BakeReport {
     uint32_t triangles = 0, charts = 0;
     uint64_t innerTexels = 0, linkTexels = 0, openTexels = 0, buriedTexels = 0, bareTexels = 0;
     uint32_t seamCrossings = 0, nearestCrossings = 0, contactCrossings = 0, danglingCrossings = 0, danglingContacts = 0;
+    double touching = 0;  // metres: pieces and borders that are nearer to each other are joined
     double walkableArea = 0;
     double charted = 0;  // share of the model's area that is in charts; what others cover exactly isn't asked for
     double stretch50 = 0, stretch95 = 0, stretchMax = 0;
@@ -90,6 +101,7 @@ struct BakeReport {
     std::vector<UvFate> uvs;
     std::vector<MaterialArea> materials;
     std::vector<PieceReach> pieces;  // the largest first
+    std::vector<Thread> threads;     // one a material
     uint32_t madeCharts = 0;         // of `charts`: not the model's own
     uint64_t overlaps = 0;           // texels of the finest level that two triangles claim
     bool layoutKept = false;         // charts lie where the model has them

@@ -199,6 +199,10 @@ void measureStretch(const BakeMesh& mesh, const SurfaceData& surface, BakeReport
 void measure(const Model& model, const BakeMesh& mesh, const std::vector<Sides>& sides, const MeshTree& drawn,
              const SurfaceData& surface, BakeReport& report);
 
+// Pieces that are too thin for the resolution, by material.
+std::vector<Thread> findThreads(const Model& model, const BakeMesh& mesh, const SurfaceData& surface,
+                                uint32_t resolution);
+
 // The model's connected pieces, contacts included, the largest first, and how far plants get about on each.
 std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Sides>& sides, const MeshTree& drawn,
                                      const SurfaceData& surface);

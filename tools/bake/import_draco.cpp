@@ -3,6 +3,7 @@
 #include <draco/compression/decode.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "tools/bake/import_gltf.hpp"
 
@@ -69,6 +70,16 @@ const tinygltf::Accessor* accessorOf(const Document& document, const tinygltf::P
     return &document.gltf.accessors[size_t(it->second)];
 }
 
+// Draco reports what it has thought of, and lets the standard library throw at counts that it hasn't.
+draco::StatusOr<std::unique_ptr<draco::Mesh>> decode(draco::DecoderBuffer* buffer) {
+    try {
+        draco::Decoder decoder;
+        return decoder.DecodeMeshFromBuffer(buffer);
+    } catch (const std::length_error&) {
+        return draco::Status(draco::Status::DRACO_ERROR, "absurd counts");
+    }
+}
+
 }  // namespace
 
 Status readDraco(const Document& document, const tinygltf::Primitive& primitive, const PrimitiveRequest& request,
@@ -82,8 +93,7 @@ Status readDraco(const Document& document, const tinygltf::Primitive& primitive,
     Bytes data = document.views[size_t(view)];
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(data.data()), data.size());
-    draco::Decoder decoder;
-    auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
+    draco::StatusOr<std::unique_ptr<draco::Mesh>> decoded = decode(&buffer);
     if (!decoded.ok())
         return Failure(document.path, place + ": damaged Draco data: " + decoded.status().error_msg_string());
     const draco::Mesh& mesh = *decoded.value();

@@ -132,7 +132,7 @@ class Textures {
     int choose(int texture);
     // by, otherwise: what a warning says before and behind the reason.
     int decode(int image, const std::string& by, const std::string& otherwise);
-    void warn(std::string text) { warnings_.push_back({document_.path, 0, 0, {}, std::move(text), true}); }
+    void warn(std::string text);  // once
 
     const Document& document_;
     std::vector<Picture>& pictures_;

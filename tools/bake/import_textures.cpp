@@ -53,6 +53,11 @@ std::vector<Alternative> alternativesOf(const tinygltf::Texture& texture) {
 
 }  // namespace
 
+void Textures::warn(std::string text) {
+    const auto said = [&](const Diagnostic& d) { return d.message == text; };
+    if (std::ranges::none_of(warnings_, said)) warnings_.push_back({document_.path, 0, 0, {}, std::move(text), true});
+}
+
 int Textures::find(int texture) {
     if (texture < 0) return -1;
     if (auto known = textures_.find(texture); known != textures_.end()) return known->second;

@@ -5,7 +5,6 @@
 // inner texels that nothing buries. Texels whose centres see each other past all contacts are one region; a walk over
 // a crossing leads from a region to a region.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "runtime/core/disjoint_sets.hpp"
@@ -13,6 +12,7 @@
 #include "runtime/surface/mesh_tree.hpp"
 #include "shaders/shared/walk.h"
 #include "tools/bake/bake_mesh.hpp"
+#include "tools/bake/reach_sight.hpp"
 #include "tools/bake/reach_walks.hpp"
 
 namespace espalier::bakery {
@@ -24,8 +24,6 @@ constexpr float kStride = 0.7f;  // texels of a walk between two looks for groun
 constexpr int kStrides = 5;
 constexpr size_t kWalks = 400;
 constexpr size_t kProbes = 12;  // of a region, asked whether they are seen
-constexpr int kRays = 96;       // from each
-constexpr float kOff = 0.1f;    // texels off the surface that rays begin
 constexpr uint32_t kRowsAtOnce = 64;
 constexpr int kAround = 2;  // texels: how far from a place its region's centres are looked for
 
@@ -233,71 +231,48 @@ std::vector<uint32_t> findPieces(const BakeMesh& mesh, const std::vector<Sides>&
     return piece;
 }
 
-// Evenly spread over the sphere.
-std::array<glm::dvec3, kRays> rays() {
-    std::array<glm::dvec3, kRays> out;
-    for (int i = 0; i < kRays; ++i) {
-        const double z = 1 - (2 * i + 1.0) / kRays, r = std::sqrt(1 - z * z), turn = 2.399963229728653 * i;
-        out[size_t(i)] = {r * std::cos(turn), r * std::sin(turn), z};
-    }
-    return out;
-}
-
-// Does a ray that the model doesn't stop meet the ground below its foot?
-bool endsBelow(const BakeMesh& mesh, glm::dvec3 from, glm::dvec3 ray) {
-    if (ray.y >= 0) return false;
-    const glm::dvec3 end = from + ray * ((mesh.boundsMin.y - from.y) / ray.y);
-    return end.x > mesh.boundsMin.x && end.x < mesh.boundsMax.x && end.z > mesh.boundsMin.z && end.z < mesh.boundsMax.z;
-}
-
-// Marks those of the regions that no ray from outside meets, at some of their texels: the insides of attics, of boxes
-// that others close, and of houses without a floor.
-std::vector<uint8_t> findEnclosed(const Ground& ground, const std::vector<uint8_t>& asked, const BakeMesh& mesh,
-                                  const MeshTree& drawn, const SurfaceData& surface) {
+// Marks those of the regions asked for of which no place is seen, of some of their texels.
+std::vector<uint8_t> findEnclosed(const Ground& ground, const std::vector<uint8_t>& asked, const Sight& sight) {
     std::vector<std::vector<uint32_t>> cells(asked.size());
     for (uint32_t cell = 0; cell < ground.size() * ground.size(); ++cell)
         if (const uint32_t r = ground.region(cell); r != kNone && asked[r]) cells[r].push_back(cell);
     std::vector<uint8_t> enclosed(asked.size(), 0);
-    const std::array<glm::dvec3, kRays> sphere = rays();
     parallelFor(cells.size(), 16, [&](size_t begin, size_t end) {
         for (size_t r = begin; r < end; ++r) {
             const size_t count = std::min(cells[r].size(), kProbes);
             bool seen = count == 0;
-            for (size_t k = 0; k < count && !seen; ++k) {
-                const uint32_t cell = cells[r][(2 * k + 1) * cells[r].size() / (2 * count)];
-                const TrianglePlane& plane = surface.triangles[ground.triangle(cell)];
-                const glm::vec3 n =
-                    glm::normalize(glm::cross(plane.du, plane.dv)) * surface.charts[plane.chart].orientation;
-                const float texel = surface.charts[plane.chart].metresPerUv / float(ground.size());
-                const glm::vec3 from = surface.levels[0].texels[cell].position + n * (kOff * texel);
-                for (const glm::dvec3& ray : sphere)
-                    seen = seen || (glm::dot(glm::vec3(ray), n) > 0.05f && !endsBelow(mesh, from, ray) &&
-                                    !drawn.pick(from, glm::vec3(ray)));
-            }
+            for (size_t k = 0; k < count && !seen; ++k)
+                seen = sight.sees(cells[r][(2 * k + 1) * cells[r].size() / (2 * count)]);
             enclosed[r] = !seen;
         }
     });
     return enclosed;
 }
 
-// Evenly spread over the ground that is seen.
-std::vector<WalkStart> findStarts(const Ground& ground, const Map& map, const std::vector<uint8_t>& enclosed,
+// Evenly spread over the ground; those that are seen.
+std::vector<WalkStart> findStarts(const Ground& ground, const Map& map, const Sight& sight,
                                   const SurfaceData& surface) {
     std::vector<uint32_t> cells;
     const uint32_t size = ground.size();
-    const auto placeOf = [size](uint32_t y, uint32_t x) { return texelIndex(size, x, y); };
     for (uint32_t y = 0; y < size; ++y)
         for (uint32_t x = 0; x < size; ++x)
-            if (const uint32_t r = ground.region(placeOf(y, x)); r != kNone && !enclosed[r])
-                cells.push_back(y * size + x);
-    std::vector<WalkStart> starts;
+            if (ground.isGround(texelIndex(size, x, y))) cells.push_back(y * size + x);
     const size_t count = std::min(cells.size(), kWalks);
-    for (size_t i = 0; i < count; ++i) {
-        const uint32_t at = cells[(2 * i + 1) * cells.size() / (2 * count)], y = at / size, x = at % size;
-        const uint32_t cell = placeOf(y, x);
-        starts.push_back({(glm::vec2(float(x), float(y)) + 0.5f) / float(size),
-                          texelChart(surface.levels[0].texels[cell].bits), map.piece[ground.region(cell)]});
-    }
+    std::vector<WalkStart> starts(count);
+    std::vector<uint8_t> seen(count);
+    parallelFor(count, 16, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const uint32_t at = cells[(2 * i + 1) * cells.size() / (2 * count)], y = at / size, x = at % size;
+            const uint32_t cell = texelIndex(size, x, y);
+            seen[i] = sight.sees(cell);
+            starts[i] = {(glm::vec2(float(x), float(y)) + 0.5f) / float(size),
+                         texelChart(surface.levels[0].texels[cell].bits), map.piece[ground.region(cell)]};
+        }
+    });
+    size_t kept = 0;
+    for (size_t i = 0; i < count; ++i)
+        if (seen[i]) starts[kept++] = starts[i];
+    starts.resize(kept);
     return starts;
 }
 
@@ -319,14 +294,15 @@ std::vector<PieceReach> measureReach(const BakeMesh& mesh, const std::vector<Sid
     }
     std::vector<uint8_t> unreached(part.size());
     for (size_t r = 0; r < unreached.size(); ++r) unreached[r] = part[r] != largest[map.piece[r]];
-    const std::vector<uint8_t> enclosed = findEnclosed(ground, unreached, mesh, drawn, surface);
+    const Sight sight(mesh, drawn, surface);
+    const std::vector<uint8_t> enclosed = findEnclosed(ground, unreached, sight);
     std::vector<PieceReach> pieces(count);
     for (uint32_t r = 0; r < map.area.size(); ++r) {
         PieceReach& piece = pieces[map.piece[r]];
         (enclosed[r] ? piece.enclosed : piece.area) += map.area[r];
         if (!unreached[r]) piece.reachable += map.area[r];
     }
-    const std::vector<WalkEnds> ends = walkAbout(mesh, surface, findStarts(ground, map, enclosed, surface), count);
+    const std::vector<WalkEnds> ends = walkAbout(mesh, surface, findStarts(ground, map, sight, surface), count);
     for (uint32_t p = 0; p < count; ++p) pieces[p].walks = ends[p].walks, pieces[p].ended = ends[p].ended;
     std::erase_if(pieces, [](const PieceReach& p) { return p.area <= 0; });
     std::stable_sort(pieces.begin(), pieces.end(),

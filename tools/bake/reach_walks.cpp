@@ -137,7 +137,7 @@ std::vector<WalkEnds> walkAbout(const BakeMesh& mesh, const SurfaceData& surface
             uint event = kWalkDone;
             for (int s = 0; walked[i] && s < kSteps && event == kWalkDone; ++s)
                 event = walkStep(surfaces, 0, w, stride);
-            ended[i] = event != kWalkDone && !borders.near(glm::dvec3(w.position));
+            ended[i] = event == kWalkOpen && !borders.near(glm::dvec3(w.position));
         }
     });
     std::vector<WalkEnds> ends(pieces);

@@ -15,7 +15,7 @@ struct WalkStart {
     uint32_t chart, piece;
 };
 
-// Of each piece the walks that began there, and those that ended, or got lost, farther than three texels from any
+// Of each piece the walks that began there, and those that ended farther than three texels from any
 // border of the model: an edge of one triangle alone that nothing else touches, or of bare ground.
 struct WalkEnds {
     uint32_t walks = 0, ended = 0;

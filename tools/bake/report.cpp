@@ -74,9 +74,19 @@ std::string BakeReport::json() const {
     for (size_t i = 0; i < std::min(pieces.size(), kMostPieces); ++i)
         j["reachable"]["pieces"].push_back(
             {{"area", pieces[i].area}, {"share", pieces[i].share()}, {"enclosed", pieces[i].enclosed}});
+    j["touching_metres"] = touching;
     j["materials"] = ordered_json::array();
     for (const MaterialArea& m : materials)
         if (m.area > 0) j["materials"].push_back({{"name", m.name}, {"area", m.area}, {"bare", m.bare}});
+    j["threads"] = ordered_json::array();
+    for (const Thread& t : threads)
+        j["threads"].push_back({{"material", t.material},
+                                {"pieces", t.pieces},
+                                {"area", t.area},
+                                {"texels", t.texels},
+                                {"metres", t.metres},
+                                {"at", {t.at.x, t.at.y, t.at.z}},
+                                {"wants", t.wants}});
     j["walkable_area"] = walkableArea;
     j["charted"] = charted;
     const auto spread = [](const Distortion& d) {
