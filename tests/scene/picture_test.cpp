@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "runtime/surface/picture.hpp"
-#include "tests/scene/small_pictures.hpp"
 #include "tests/support/data.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/small_pictures.hpp"
 #include "tools/scene/text_file.hpp"
 
 using namespace espalier;
