@@ -11,7 +11,8 @@
  * Ownership: what the caller passes in is copied or used up before the call returns, unless said otherwise. Strings that are
  * returned belong to the context and live until its next call, unless said otherwise.
  * Units: metres, radians, right-handed world space with Y up; colours linear unless said otherwise.
- * Ids: plain values, zero-initialised is no object; an id whose object was destroyed is refused, never reused.
+ * Ids: plain values, zero-initialised is no object; an id whose object was destroyed is refused, never reused. An id of
+ * another context is refused too, while no more than 64 contexts live in the process.
  * Defs: begin with espDefault...(), so that new fields get sensible values; those that have none, with zeros.
  */
 #ifndef ESPALIER_H
@@ -39,7 +40,9 @@ typedef enum EspResult {
                                    run kernels wrongly */
     ESP_DEVICE_LOST = 5,        /* destroy the context and create it anew */
     ESP_OUT_OF_MEMORY = 6,
-    ESP_STOPPED = 7             /* who watches growth gave it up (espWatchGrowth) */
+    ESP_STOPPED = 7,            /* who watches growth gave it up (espWatchGrowth) */
+    ESP_DRIVER_FAILED = 8       /* a call of the GPU's driver failed, and neither for want of memory nor because the device is
+                                   lost; espLastError names the result. It may work when it is tried again */
 } EspResult;
 
 typedef struct EspContext EspContext;
@@ -269,8 +272,8 @@ ESP_API EspResult espSetGrow(EspContext* context, const EspGrowDef* def);   /* w
 
 /* Grows what changed since the last call. Does nothing, and costs nothing, if nothing did. A town and plants grow each for
  * itself: where one fails the other grows, what stood of it stands, and the town's failure is given first. What has failed
- * is told by each call until its inputs change; for want of memory (ESP_OUT_OF_MEMORY) it is tried again after 1, 2, 4 ...
- * calls, at most 1,024. */
+ * is told by each call until its inputs change; for want of memory (ESP_OUT_OF_MEMORY), or where the driver failed
+ * (ESP_DRIVER_FAILED), it is tried again after 1, 2, 4 ... calls, at most 1,024. */
 ESP_API EspResult espUpdate(EspContext* context);
 
 /* Plants that take long to grow may be watched: `growing` is called within espUpdate, on its thread, some ten times a second

@@ -19,7 +19,7 @@ typedef struct EspSeedDef {
     uint32_t twin;            /* tells apart seeds of one number, 1 to 2^20; 0: the first that isn't planted yet */
 } EspSeedDef;
 ESP_API EspSeedDef espDefaultSeedDef(void);
-/* Up to 2^20 a context. ESP_INVALID_ARGUMENT: there is no surface, the grammar makes roofs, no rule grows from the symbol,
+/* Up to 2^20 - 1 a context. ESP_INVALID_ARGUMENT: there is no surface, the grammar makes roofs, no rule grows from the symbol,
  * the twin is planted already, or a number isn't finite. */
 ESP_API EspResult espPlant(EspContext* context, const EspSeedDef* def, EspSeed* out);
 ESP_API EspResult espRemoveSeed(EspContext* context, EspSeed seed);

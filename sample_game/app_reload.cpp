@@ -1,6 +1,7 @@
 // A model that has changed on disk: what is open is opened anew over it.
-#include <unistd.h>
-
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -41,8 +42,12 @@ void App::reload() {
         work_.error = "Not reloaded: TMPDIR is no folder";
         return;
     }
-    const fs::path folder = temporary / ("espalier-reload-" + std::to_string(getpid()));
-    const std::string kept = (folder / work_.scene().name).string();
+    std::string folder = (temporary / "espalier-reload-XXXXXX").string();
+    if (!mkdtemp(folder.data())) {
+        work_.error = "Not reloaded: " + temporary.string() + ": " + std::strerror(errno);
+        return;
+    }
+    const std::string kept = (fs::path(folder) / work_.scene().name).string();
     const auto state = std::make_shared<uint64_t>();
     session_.background().ask({"Reloading " + fs::path(session_.file()).filename().string(),
                                [this, kept, state] {

@@ -8,7 +8,9 @@
 #include "tools/command_line.hpp"
 #include "tools/scene/heap.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int playAsAsked(int argc, char** argv) {
     CLI::App cli{"A window on a growing scene: paint with seeds, sliders and grammars.", "espalier-sample"};
     cli.set_version_flag("--version", ESPALIER_VERSION);
     sample::AppOptions options;
@@ -67,9 +69,12 @@ int main(int argc, char** argv) {
     const char* wanted = std::getenv("ESPALIER_VALIDATION");
     options.validation = options.validation || (wanted && std::string(wanted) == "1");
     espalier::scene::keepHeap();
-    try {
-        return sample::runApp(options);
-    } catch (const std::exception& e) {
-        return fail(e.what());
-    }
+    return sample::runApp(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return espalier::runProgram(
+        "espalier-sample", [&] { return playAsAsked(argc, argv); }, 2);
 }

@@ -5,7 +5,10 @@
 #include <charconv>
 #include <csignal>
 #include <cstdint>
+#include <cstdio>
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,6 +30,24 @@ inline std::optional<int> parseCommandLine(CLI::App& app, int argc, char** argv)
         return app.exit(e) ? 2 : 0;
     }
     return std::nullopt;
+}
+
+// Runs a program's body. No exception, of a library's either, ends the program: it is a message and the code `failed`.
+template <class F>
+int runProgram(const char* name, F&& body, int failed = 1) {
+    const auto tell = [&](const char* why) {
+        std::fprintf(stderr, "%s: %s\n", name, why);
+        return failed;
+    };
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return tell("memory has run out");
+    } catch (const std::exception& mistake) {
+        return tell(mistake.what());
+    } catch (...) {
+        return tell("something has failed that doesn't say what");
+    }
 }
 
 // "1280x720": two whole numbers from `least` to `most`. Nothing: the text says something else.

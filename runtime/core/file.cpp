@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cinttypes>
+#include <cstdio>
 #include <cstring>
 
 namespace espalier {
@@ -60,14 +62,15 @@ Result<Container> readWhole(const std::filesystem::path& path) {
 
 // A file that nobody has, beside `path`; the process's file mode mask applies.
 int makeNeighbour(const std::filesystem::path& path, std::string& name) {
+    constexpr int kAttempts = 100;
     for (int attempt = 0;; ++attempt) {
-        name = path.string() + "." + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".partial";
-        const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd >= 0 || errno != EEXIST || attempt == 1000) return fd;
+        name = neighbourOf(path);
+        const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (fd >= 0 || errno != EEXIST || attempt == kAttempts) return fd;
     }
 }
 
-// What a link leads to, or else the path itself.
+// What a link leads to, or else the path itself: a link that leads nowhere yet is followed, too.
 std::filesystem::path behindLinks(const std::filesystem::path& path) {
     constexpr int kMostLinks = 40;
     std::filesystem::path behind = path;
@@ -97,21 +100,32 @@ Result<std::string> readTextFile(const std::filesystem::path& path) {
     return readWhole<std::string>(path);
 }
 
-Status writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+std::string neighbourOf(const std::filesystem::path& path) {
+    uint64_t random = 0;
+    (void)::getentropy(&random, sizeof random);
+    char digits[24];
+    std::snprintf(digits, sizeof digits, ".%016" PRIx64, random);
+    return path.string() + digits + ".partial";
+}
+
+Status writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes, Links links) {
+    const bool follow = links == Links::follow;
     std::error_code error;
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
     if (error) return Failure(path.string(), "its folder cannot be made: " + error.message());
-    const std::filesystem::file_type type = std::filesystem::status(path, error).type();
+    const std::filesystem::file_type type =
+        (follow ? std::filesystem::status(path, error) : std::filesystem::symlink_status(path, error)).type();
     using Type = std::filesystem::file_type;
     if (type == Type::directory) return Failure(path.string(), "is a folder, not a file");
     // A pipe or a device is no file that could be replaced: renaming over /dev/null would be a disaster.
-    if (type == Type::character || type == Type::block || type == Type::fifo || type == Type::socket) {
+    const bool special = type == Type::character || type == Type::block || type == Type::fifo || type == Type::socket;
+    if (special && follow) {
         Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
         const int failed = device.get() < 0 ? errno : writeAll(device.get(), bytes);
         return failed ? Status(systemFailure(path, "cannot be written", failed)) : Status(Done{});
     }
 
-    const std::filesystem::path target = behindLinks(path);
+    const std::filesystem::path target = follow ? behindLinks(path) : path;
     std::string partial;
     Descriptor file(makeNeighbour(target, partial));
     if (file.get() < 0) return systemFailure(path, "cannot be written", errno);
@@ -123,8 +137,8 @@ Status writeFile(const std::filesystem::path& path, std::span<const std::byte> b
     return systemFailure(path, "cannot be written", reason);
 }
 
-Status writeFile(const std::filesystem::path& path, std::string_view text) {
-    return writeFile(path, std::as_bytes(std::span(text.data(), text.size())));
+Status writeFile(const std::filesystem::path& path, std::string_view text, Links links) {
+    return writeFile(path, std::as_bytes(std::span(text.data(), text.size())), links);
 }
 
 }  // namespace espalier

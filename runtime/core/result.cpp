@@ -19,9 +19,9 @@ std::string toString(const std::vector<Diagnostic>& diagnostics) {
     return text;
 }
 
-Failure deviceFailure(std::string_view object, std::string message) {
+Failure deviceFailure(std::string_view object, std::string message, Failure::Cause cause) {
     Failure failure(object, std::move(message));
-    failure.ofDevice = true;
+    failure.cause = cause;
     return failure;
 }
 

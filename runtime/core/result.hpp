@@ -27,18 +27,27 @@ std::string toString(const std::vector<Diagnostic>& diagnostics);
 
 // A content mistake or an outside failure: at least one diagnostic.
 struct Failure {
+    // What failed. All but `content` are failures of the device: what it was given is sound.
+    enum class Cause {
+        content,
+        memory,  // the device's memory has run out, or one of its limits is too low
+        driver,  // a call of the driver failed for another reason
+        lost,    // the device is lost
+        fault,   // the driver runs kernels otherwise than they are written
+    };
     std::vector<Diagnostic> diagnostics;
-    bool ofDevice = false;  // its memory, a limit of it or its loss: what it was given is sound
+    Cause cause = Cause::content;
 
     Failure(Diagnostic d) { diagnostics.push_back(std::move(d)); }
     explicit Failure(std::vector<Diagnostic> all) : diagnostics(std::move(all)) { assert(!diagnostics.empty()); }
     Failure(std::string_view file, std::string message)
         : Failure(Diagnostic{std::string(file), 0, 0, {}, std::move(message)}) {}
     std::string text() const { return toString(diagnostics); }
+    bool ofDevice() const { return cause != Cause::content; }
 };
 
 // What the device can't do, whatever the content.
-Failure deviceFailure(std::string_view object, std::string message);
+Failure deviceFailure(std::string_view object, std::string message, Failure::Cause cause = Failure::Cause::memory);
 
 // A value or why there is none. Content mistakes and outside failures travel in it; programming mistakes assert.
 template <class T>

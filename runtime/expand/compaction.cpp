@@ -1,7 +1,8 @@
 // Closing the gaps that edits have left. In: what is drawn. Out: its nodes and leaves without gaps, where all anew
 // would be ten times the work. Chunks and branches keep their places, until all grows anew. Native code moves nodes and
 // leaves up in place; kernels copy them to the other set of buffers, which is drawn from then on.
-#include "runtime/core/check.hpp"
+#include <string>
+
 #include "runtime/expand/gpu_growth.hpp"
 
 namespace espalier {
@@ -40,10 +41,20 @@ Status GpuGrowth::compact(const GrowthInputs& inputs) {
     return closed;
 }
 
+// As many nodes and leaves stay when gaps are closed as there were. Else a driver's kernels have counted wrong, and all
+// grows anew.
+Status GpuGrowth::checkMoved(uint32_t nodes, uint32_t leaves) {
+    if (nodes == stats_.nodes && leaves == stats_.leaves) return Done{};
+    whole_ = false;
+    return deviceFailure("growth",
+                         "the GPU counts " + std::to_string(nodes) + " nodes and " + std::to_string(leaves) +
+                             " leaves where " + std::to_string(stats_.nodes) + " and " + std::to_string(stats_.leaves) +
+                             " have grown",
+                         Failure::Cause::driver);
+}
+
 // Nodes and leaves are so many now.
 void GpuGrowth::showMoved(uint32_t nodes, uint32_t leaves) {
-    requireEqual(nodes, stats_.nodes, "nodes that stay when gaps are closed");
-    requireEqual(leaves, stats_.leaves, "leaves that stay when gaps are closed");
     const GrowthMove moved{&nodesWent_, &leavesWent_, view_.nodeCount, view_.leafCount, nodes, leaves};
     GrowStatus status{};
     status.nodes = nodes;
@@ -75,6 +86,7 @@ Status GpuGrowth::closeGaps() {
     closing.leafCount = view_.leafCount;
     whole_ = false;  // as in regrow()
     closeGapsNative(closing, crew_);
+    if (Status right = checkMoved(closing.nodeCount, closing.leafCount); !right) return right;
     whole_ = true;
     showMoved(closing.nodeCount, closing.leafCount);
     (void)enlarge();  // where there isn't memory, what room there is may do
@@ -211,6 +223,7 @@ Status GpuGrowth::copyTogether() {
     if (Status finished = commands->finish(); !finished) return finished;
     GrowStatus status;
     std::memcpy(&status, readback_.mapped(), sizeof status);
+    if (Status right = checkMoved(status.nodes, status.leaves); !right) return right;
     plants_.swap();
     links_.swap();
     chained_ = false;

@@ -187,6 +187,7 @@ class GpuGrowth final : public Growth {
     Status copyTogether();
     Status makeCopyRoom();
     CompactEnv compactEnvironment() const;
+    Status checkMoved(uint32_t nodes, uint32_t leaves);
     void showMoved(uint32_t nodes, uint32_t leaves);
 
     Device& device_;

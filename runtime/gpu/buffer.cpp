@@ -37,7 +37,7 @@ Result<Buffer> Buffer::create(Device& device, std::string_view name, uint64_t si
                  VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                  VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     VkBuffer handle = VK_NULL_HANDLE;
-    if (!ESPALIER_VK(device, name, device.vk().vkCreateBuffer(device.handle(), &info, nullptr, &handle)))
+    if (!device.succeeded(device.vk().vkCreateBuffer(device.handle(), &info, nullptr, &handle)))
         return gpuFailure(device, name, "making a buffer");
     b.buffer_ = Owned(device, handle);
     device.setName(VK_OBJECT_TYPE_BUFFER, uint64_t(handle), name);
@@ -47,8 +47,7 @@ Result<Buffer> Buffer::create(Device& device, std::string_view name, uint64_t si
     Result<MemoryBlock> block = allocate(device, request);
     if (!block) return block.failure();
     b.memory_ = Owned(device, *block);
-    if (!ESPALIER_VK(device, name,
-                     device.vk().vkBindBufferMemory(device.handle(), handle, block->memory, block->offset)))
+    if (!device.succeeded(device.vk().vkBindBufferMemory(device.handle(), handle, block->memory, block->offset)))
         return gpuFailure(device, name, "binding its memory");
     b.mapped_ = block->mapped;
     VkBufferDeviceAddressInfo address{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, nullptr, handle};
@@ -67,7 +66,7 @@ Result<TexelView> TexelView::create(Device& device, const Buffer& buffer, VkForm
     info.format = format;
     info.range = VK_WHOLE_SIZE;
     VkBufferView handle = VK_NULL_HANDLE;
-    if (!ESPALIER_VK(device, buffer.name(), device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &handle)))
+    if (!device.succeeded(device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &handle)))
         return gpuFailure(device, buffer.name(), "making a texel view");
     TexelView view;
     view.view_ = Owned(device, handle);

@@ -16,7 +16,7 @@ Result<uint32_t> CommandPools::acquire(uint64_t serial) {
     const uint64_t oldest = device_.retireQueue().oldestPending();
     auto vacant = std::ranges::find_if(slots_, [&](const Slot& slot) { return slot.serial < oldest; });
     if (vacant != slots_.end()) {
-        if (!ESPALIER_VK(device_, "commands", vk.vkResetCommandPool(device_.handle(), vacant->pool, 0)))
+        if (!device_.succeeded(vk.vkResetCommandPool(device_.handle(), vacant->pool, 0)))
             return gpuFailure(device_, "commands", "using a command pool again");
         vacant->serial = serial;
         return uint32_t(vacant - slots_.begin());
@@ -26,14 +26,13 @@ Result<uint32_t> CommandPools::acquire(uint64_t serial) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool.queueFamilyIndex = device_.info().queueFamily;
-    if (!ESPALIER_VK(device_, "commands", vk.vkCreateCommandPool(device_.handle(), &pool, nullptr, &slot.pool)))
+    if (!device_.succeeded(vk.vkCreateCommandPool(device_.handle(), &pool, nullptr, &slot.pool)))
         return gpuFailure(device_, "commands", "making a command pool");
     slots_.push_back(slot);
     VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     info.commandPool = slot.pool;
     info.commandBufferCount = 1;
-    if (!ESPALIER_VK(device_, "commands",
-                     vk.vkAllocateCommandBuffers(device_.handle(), &info, &slots_.back().commands))) {
+    if (!device_.succeeded(vk.vkAllocateCommandBuffers(device_.handle(), &info, &slots_.back().commands))) {
         vk.vkDestroyCommandPool(device_.handle(), slot.pool, nullptr);
         slots_.pop_back();
         return gpuFailure(device_, "commands", "making a command buffer");

@@ -130,7 +130,7 @@ Result<Commands> Commands::begin(Device& device, std::string_view name) {
     device.setName(VK_OBJECT_TYPE_COMMAND_BUFFER, uint64_t(c.handle_), name);
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    if (!ESPALIER_VK(device, name, device.vk().vkBeginCommandBuffer(c.handle_, &info)))
+    if (!device.succeeded(device.vk().vkBeginCommandBuffer(c.handle_, &info)))
         return gpuFailure(device, name, "beginning to record");
     // Ours end with a barrier, a host's don't: what its last frame still reads, this one may write.
     if (device.retireQueue().knowsHost()) c.barrier(Use::all, Use::all);
@@ -165,7 +165,7 @@ Result<uint64_t> Commands::submit() {
         device.retireQueue().recordingDiscarded(serial_);
         return gpuFailure(device, "commands", what);
     };
-    if (!ESPALIER_VK(device, "commands", device.vk().vkEndCommandBuffer(handle_))) return failed("recording");
+    if (!device.succeeded(device.vk().vkEndCommandBuffer(handle_))) return failed("recording");
 
     const uint64_t value = device.nextSubmission();
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
@@ -179,7 +179,7 @@ Result<uint64_t> Commands::submit() {
     info.pCommandBufferInfos = &commands;
     info.signalSemaphoreInfoCount = 1;
     info.pSignalSemaphoreInfos = &signal;
-    if (!ESPALIER_VK(device, "commands", device.vk().vkQueueSubmit2(device.queue(), 1, &info, VK_NULL_HANDLE))) {
+    if (!device.succeeded(device.vk().vkQueueSubmit2(device.queue(), 1, &info, VK_NULL_HANDLE))) {
         device.submissionFailed();
         return failed("submitting");
     }

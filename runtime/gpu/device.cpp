@@ -4,21 +4,27 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <new>
 
-#include "runtime/core/check.hpp"
 #include "runtime/gpu/command_pools.hpp"
+#include "runtime/gpu/results.hpp"
 #include "runtime/gpu/retire.hpp"
 #include "runtime/gpu/timer.hpp"
 #include "runtime/gpu/validation.hpp"
 
 namespace espalier {
+namespace {
+
+constexpr int kMostWaits = 100;
+
+}  // namespace
 
 Device::Device() = default;
 
 Device::~Device() {
     if (device_) {
         if (vk_.vkDeviceWaitIdle && ownsDevice_) vk_.vkDeviceWaitIdle(device_);
-        if (timeline_ && !ownsDevice_ && !lost_) (void)wait(submitted_);
+        waitForHost();
         if (retireQueue_) retireQueue_->flush();
         timers_.reset();
         commandPools_.reset();
@@ -33,9 +39,18 @@ Device::~Device() {
     if (loader_) ::dlclose(loader_);
 }
 
+// Nothing leaves a destructor: where there is no memory for a message, none is made.
+void Device::waitForHost() noexcept {
+    if (!timeline_ || ownsDevice_ || lost_) return;
+    try {
+        (void)wait(submitted_);
+    } catch (const std::bad_alloc&) {
+    }
+}
+
 uint64_t Device::completed() {
     uint64_t value = 0;
-    if (ESPALIER_VK(*this, "timeline", vk_.vkGetSemaphoreCounterValue(device_, timeline_, &value)))
+    if (succeeded(vk_.vkGetSemaphoreCounterValue(device_, timeline_, &value)))
         completed_ = value;
     else if (lost_)
         completed_ = submitted_;  // it runs nothing any more
@@ -47,8 +62,11 @@ Status Device::wait(uint64_t value) {
     info.semaphoreCount = 1;
     info.pSemaphores = &timeline_;
     info.pValues = &value;
-    if (!ESPALIER_VK(*this, "timeline", vk_.vkWaitSemaphores(device_, &info, UINT64_MAX)))
-        return gpuFailure(*this, "timeline", "waiting for the GPU");
+    // Without a limit no wait should time out; some drivers' waits do, and the GPU is at work all the same.
+    VkResult waited = VK_TIMEOUT;
+    for (int i = 0; i < kMostWaits && waited == VK_TIMEOUT; ++i)
+        waited = vk_.vkWaitSemaphores(device_, &info, UINT64_MAX);
+    if (!succeeded(waited)) return gpuFailure(*this, "timeline", "waiting for the GPU");
     collect();
     return Done{};
 }
@@ -106,39 +124,21 @@ void Device::setName(VkObjectType type, uint64_t handle, std::string_view name) 
     vk_.vkSetDebugUtilsObjectNameEXT(device_, &info);
 }
 
-Failure Device::fault(std::string_view what) {
-    faulty_ = true;
+Failure Device::fault(std::string_view what) const {
     return deviceFailure(info_.name + " (" + info_.driver + ")",
-                         std::string(what) + ": this driver doesn't run Espalier's kernels as they are written");
+                         std::string(what) + ": this driver doesn't run Espalier's kernels as they are written",
+                         Failure::Cause::fault);
 }
 
-bool Device::succeeded(VkResult result, const char* expression, std::string_view object) {
-    driverFailed_ = result == VK_ERROR_UNKNOWN || result == VK_ERROR_INITIALIZATION_FAILED;
-    switch (result) {
-        case VK_SUCCESS:
-        case VK_INCOMPLETE:
-        case VK_PIPELINE_COMPILE_REQUIRED:
-            return true;
-        case VK_ERROR_DEVICE_LOST:
-            lost_ = true;
-            return false;
-        case VK_ERROR_OUT_OF_HOST_MEMORY:
-        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-        case VK_ERROR_OUT_OF_POOL_MEMORY:
-        case VK_ERROR_TOO_MANY_OBJECTS:
-        case VK_ERROR_INITIALIZATION_FAILED:
-        case VK_ERROR_UNKNOWN:
-            return false;
-        default:
-            fatal(std::string(object) + ": " + expression + " gave VkResult " + std::to_string(int(result)));
-    }
+bool Device::succeeded(VkResult result) {
+    if (result == VK_SUCCESS) return true;
+    failedResult_ = result;
+    lost_ = lost_ || result == VK_ERROR_DEVICE_LOST;
+    return false;
 }
 
 Failure gpuFailure(const Device& device, std::string_view object, std::string_view what) {
-    const std::string_view cause = device.lost()           ? "the GPU was lost while "
-                                   : device.driverFailed() ? "the GPU's driver failed while "
-                                                           : "out of GPU memory while ";
-    return deviceFailure(object, std::string(cause) + std::string(what));
+    return resultFailure(device.lost() ? VK_ERROR_DEVICE_LOST : device.failedResult(), object, what);
 }
 
 }  // namespace espalier

@@ -65,8 +65,7 @@ struct PassTime {
 };
 
 // A Vulkan 1.3 device with one queue: the root of all GPU objects. It is used by one thread at a time.
-// Running out of memory, losing the device and what drivers give no reason for come back as failures (see gpuFailure);
-// any other Vulkan error is a programming mistake and ends the program with the expression and the object's name.
+// No result of a Vulkan call ends the program: all but VK_SUCCESS come back as failures (see gpuFailure).
 class Device {
   public:
     // Fails with a message that names what is missing: the loader, a device, the layer, features.
@@ -116,17 +115,16 @@ class Device {
     std::vector<std::string> validationTexts() const;
 
     bool lost() const { return lost_; }
-    // The latest call has failed for a reason that the driver doesn't tell.
-    bool driverFailed() const { return driverFailed_; }
-    // Notes that the driver has run kernels otherwise than they are written, and tells so with its and the device's
-    // name. what: the effect that was seen.
-    Failure fault(std::string_view what);
-    bool faulty() const { return faulty_; }  // so it was noted
+    // Of the latest call for which succeeded() said false.
+    VkResult failedResult() const { return failedResult_; }
+    // That the driver has run kernels otherwise than they are written, with its and the device's name. what: the effect
+    // that was seen.
+    Failure fault(std::string_view what) const;
 
     // For other files of gpu/.
     void setName(VkObjectType type, uint64_t handle, std::string_view name) const;
-    // True: success. False: a failure of the driver or device. Otherwise doesn't return.
-    bool succeeded(VkResult result, const char* expression, std::string_view object);
+    // Whether a call's result is VK_SUCCESS. Another is kept for gpuFailure.
+    bool succeeded(VkResult result);
     RetireQueue& retireQueue() { return *retireQueue_; }
     TimerRing& timers() { return *timers_; }
     CommandPools& commandPools() { return *commandPools_; }
@@ -136,12 +134,14 @@ class Device {
 
   private:
     Device();
+    void waitForHost() noexcept;
     friend struct DeviceSetup;
 
     bool ownsInstance_ = false;
     bool ownsDevice_ = false;
     bool debugUtils_ = false;
-    bool lost_ = false, driverFailed_ = false, faulty_ = false;
+    bool lost_ = false;
+    VkResult failedResult_ = VK_SUCCESS;
     Log log_;
     void* loader_ = nullptr;
     PFN_vkGetInstanceProcAddr getInstanceProcAddr_ = nullptr;
@@ -165,9 +165,7 @@ class Device {
     std::unique_ptr<CommandPools> commandPools_;
 };
 
-// succeeded() with the expression's own text.
-#define ESPALIER_VK(device, object, expression) ((device).succeeded((expression), #expression, (object)))
-// The failure for a call that succeeded() has answered with false.
+// The failure for a call that succeeded() has answered with false. what: what the call was for.
 Failure gpuFailure(const Device& device, std::string_view object, std::string_view what);
 
 }  // namespace espalier

@@ -262,7 +262,7 @@ struct DeviceSetup {
         VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
         type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
         VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
-        if (!ESPALIER_VK(d, "timeline", d.vk_.vkCreateSemaphore(d.device_, &info, nullptr, &d.timeline_)))
+        if (!d.succeeded(d.vk_.vkCreateSemaphore(d.device_, &info, nullptr, &d.timeline_)))
             return gpuFailure(d, "timeline", "making it");
         d.setName(VK_OBJECT_TYPE_SEMAPHORE, uint64_t(d.timeline_), "timeline");
         d.setName(VK_OBJECT_TYPE_QUEUE, uint64_t(d.queue_), "queue");

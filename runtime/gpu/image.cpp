@@ -23,7 +23,7 @@ Result<Owned<VkImageView>> makeView(Device& device, const ImageDesc& desc, VkIma
     info.format = desc.format;
     info.subresourceRange = range;
     VkImageView view = VK_NULL_HANDLE;
-    if (!ESPALIER_VK(device, desc.name, device.vk().vkCreateImageView(device.handle(), &info, nullptr, &view)))
+    if (!device.succeeded(device.vk().vkCreateImageView(device.handle(), &info, nullptr, &view)))
         return gpuFailure(device, desc.name, "making its view");
     device.setName(VK_OBJECT_TYPE_IMAGE_VIEW, uint64_t(view), desc.name);
     return Owned(device, view);
@@ -97,7 +97,7 @@ Result<Image> Image::create(Device& device, const ImageDesc& desc) {
     info.usage = desc.usage;
     if (desc.samples == 1) info.usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     VkImage handle = VK_NULL_HANDLE;
-    if (!ESPALIER_VK(device, desc.name, device.vk().vkCreateImage(device.handle(), &info, nullptr, &handle)))
+    if (!device.succeeded(device.vk().vkCreateImage(device.handle(), &info, nullptr, &handle)))
         return gpuFailure(device, desc.name, "making an image");
     image.image_ = Owned(device, handle);
     image.handle_ = handle;
@@ -110,8 +110,7 @@ Result<Image> Image::create(Device& device, const ImageDesc& desc) {
     if (!block && device.retiredCount() > 0 && device.waitIdle()) block = device.memory().allocate(request);
     if (!block) return block.failure();
     image.memory_ = Owned(device, *block);
-    if (!ESPALIER_VK(device, desc.name,
-                     device.vk().vkBindImageMemory(device.handle(), handle, block->memory, block->offset)))
+    if (!device.succeeded(device.vk().vkBindImageMemory(device.handle(), handle, block->memory, block->offset)))
         return gpuFailure(device, desc.name, "binding its memory");
     return finish(device, desc, std::move(image));
 }
@@ -151,7 +150,7 @@ Result<Sampler> Sampler::create(Device& device, const SamplerDesc& desc) {
     info.compareOp = desc.shadowCompare ? VK_COMPARE_OP_LESS_OR_EQUAL : VK_COMPARE_OP_ALWAYS;
     info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
     VkSampler handle = VK_NULL_HANDLE;
-    if (!ESPALIER_VK(device, desc.name, device.vk().vkCreateSampler(device.handle(), &info, nullptr, &handle)))
+    if (!device.succeeded(device.vk().vkCreateSampler(device.handle(), &info, nullptr, &handle)))
         return gpuFailure(device, desc.name, "making a sampler");
     device.setName(VK_OBJECT_TYPE_SAMPLER, uint64_t(handle), desc.name);
     Sampler sampler;

@@ -16,6 +16,7 @@
 #include <string>
 
 #include "runtime/core/check.hpp"
+#include "runtime/gpu/results.hpp"
 
 namespace espalier {
 namespace {
@@ -125,7 +126,9 @@ class PooledMemory : public MemorySource {
         fresh.holes.emplace(0, fresh.size);
         Blocks place;  // made before memory is taken, so that none is taken for nothing
         place.emplace(++lastToken_, std::move(fresh));
-        if (!reserve(place.begin()->second)) return outOfMemory(request);
+        if (const Reserving reserved = reserve(place.begin()->second); reserved.result != VK_SUCCESS)
+            return reserved.mapping ? resultFailure(reserved.result, request.name, "mapping its memory")
+                                    : notAllocated(reserved.result, request);
         Block& block = blocks_.insert(place.extract(place.begin())).position->second;
         return take(lastToken_, block, block.holes.begin(), need);
     }
@@ -176,10 +179,14 @@ class PooledMemory : public MemorySource {
         return best;
     }
 
+    struct Reserving {
+        VkResult result = VK_SUCCESS;
+        bool mapping = false;  // it is the result of mapping what was allocated
+    };
     // Takes a block from Vulkan, after giving up empty ones if need be.
-    bool reserve(Block& block) {
+    Reserving reserve(Block& block) {
         const VkMemoryType& type = properties_.memoryTypes[block.type];
-        if (block.size > properties_.memoryHeaps[type.heapIndex].size) return false;
+        if (block.size > properties_.memoryHeaps[type.heapIndex].size) return {VK_ERROR_OUT_OF_DEVICE_MEMORY};
         VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
         flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
         VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
@@ -191,22 +198,24 @@ class PooledMemory : public MemorySource {
             trim();
             result = vk_.vkAllocateMemory(device_, &info, nullptr, &block.memory);
         }
-        if (result != VK_SUCCESS) return false;
+        if (result != VK_SUCCESS) return {result};
         const bool mappable = (type.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) &&
                               (type.propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-        if (mappable && (software_ || !block.image) && !map(block)) {
+        if (mappable && (software_ || !block.image)) result = map(block);
+        if (result != VK_SUCCESS) {
             vk_.vkFreeMemory(device_, block.memory, nullptr);
-            return false;
+            return {result, true};
         }
         reserved_ += block.size;
         empty_ += block.size;
-        return true;
+        return {};
     }
 
     // For good, but an image's only to drop its pages.
-    bool map(Block& block) {
+    VkResult map(Block& block) {
         void* at = nullptr;
-        if (vk_.vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &at) != VK_SUCCESS) return false;
+        const VkResult result = vk_.vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &at);
+        if (result != VK_SUCCESS) return result;
         if (software_) dropPages(at, block.size);
         if (block.image) {
             vk_.vkUnmapMemory(device_, block.memory);
@@ -214,7 +223,7 @@ class PooledMemory : public MemorySource {
             askForLargePages(at, block.size);
             block.mapped = static_cast<std::byte*>(at);
         }
-        return true;
+        return VK_SUCCESS;
     }
 
     Blocks::iterator release(Blocks::iterator it) {
@@ -237,9 +246,10 @@ class PooledMemory : public MemorySource {
         return {block.memory, offset, need.size, block.mapped ? block.mapped + offset : nullptr, token};
     }
 
-    Failure outOfMemory(const MemoryRequest& request) const {
-        return deviceFailure(request.name, "out of GPU memory: " + std::to_string(request.requirements.size) +
-                                               " bytes asked for, " + std::to_string(reserved_) + " taken so far");
+    Failure notAllocated(VkResult result, const MemoryRequest& request) const {
+        return resultFailure(result, request.name,
+                             "allocating " + std::to_string(request.requirements.size) + " bytes, " +
+                                 std::to_string(reserved_) + " taken so far");
     }
 
     const DeviceFunctions& vk_;

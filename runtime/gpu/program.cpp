@@ -28,7 +28,7 @@ class LoadedModule {
         VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
         info.codeSize = code.size_bytes();
         info.pCode = code.data();
-        if (!ESPALIER_VK(device, name, device.vk().vkCreateShaderModule(device.handle(), &info, nullptr, &m.handle_)))
+        if (!device.succeeded(device.vk().vkCreateShaderModule(device.handle(), &info, nullptr, &m.handle_)))
             return gpuFailure(device, name, "loading a shader");
         device.setName(VK_OBJECT_TYPE_SHADER_MODULE, uint64_t(m.handle_), name);
         return m;
@@ -154,8 +154,7 @@ Status Program::makeLayout(Device& device, std::span<const ShaderInterface> shap
     set.bindingCount = uint32_t(bindings.size());
     set.pBindings = bindings.data();
     VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
-    if (!ESPALIER_VK(device, name_,
-                     device.vk().vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &setLayout)))
+    if (!device.succeeded(device.vk().vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &setLayout)))
         return gpuFailure(device, name_, "making its set layout");
     setLayout_ = Owned(device, setLayout);
     const VkPushConstantRange range{stages_, 0, (pushBytes_ + 3) / 4 * 4};
@@ -165,7 +164,7 @@ Status Program::makeLayout(Device& device, std::span<const ShaderInterface> shap
     info.pushConstantRangeCount = pushBytes_ ? 1 : 0;
     info.pPushConstantRanges = &range;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    if (!ESPALIER_VK(device, name_, device.vk().vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout)))
+    if (!device.succeeded(device.vk().vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout)))
         return gpuFailure(device, name_, "making its layout");
     layout_ = Owned(device, layout);
     device.setName(VK_OBJECT_TYPE_PIPELINE_LAYOUT, uint64_t(layout), name_);
@@ -185,8 +184,7 @@ Result<Program> Program::compute(Device& device, std::string_view shader, const 
     info.stage = module->stage(constants.info);
     info.layout = p.layout();
     VkPipeline pipeline = VK_NULL_HANDLE;
-    if (!ESPALIER_VK(device, shader,
-                     device.vk().vkCreateComputePipelines(device.handle(), nullptr, 1, &info, nullptr, &pipeline)))
+    if (!device.succeeded(device.vk().vkCreateComputePipelines(device.handle(), nullptr, 1, &info, nullptr, &pipeline)))
         return gpuFailure(device, shader, "making its pipeline");
     p.pipeline_ = Owned(device, pipeline);
     device.setName(VK_OBJECT_TYPE_PIPELINE, uint64_t(pipeline), shader);
@@ -224,8 +222,8 @@ Result<Program> Program::graphics(Device& device, const GraphicsDesc& desc) {
     info.pDynamicState = &fixed.dynamic;
     info.layout = p.layout();
     VkPipeline pipeline = VK_NULL_HANDLE;
-    if (!ESPALIER_VK(device, desc.name,
-                     device.vk().vkCreateGraphicsPipelines(device.handle(), nullptr, 1, &info, nullptr, &pipeline)))
+    if (!device.succeeded(
+            device.vk().vkCreateGraphicsPipelines(device.handle(), nullptr, 1, &info, nullptr, &pipeline)))
         return gpuFailure(device, desc.name, "making its pipeline");
     p.pipeline_ = Owned(device, pipeline);
     device.setName(VK_OBJECT_TYPE_PIPELINE, uint64_t(pipeline), desc.name);

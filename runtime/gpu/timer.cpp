@@ -23,8 +23,7 @@ uint32_t TimerRing::poolFor(uint64_t serial) {
         info.queryType = VK_QUERY_TYPE_TIMESTAMP;
         info.queryCount = kPairs * 2;
         Pool pool;
-        if (!ESPALIER_VK(device_, "timers",
-                         device_.vk().vkCreateQueryPool(device_.handle(), &info, nullptr, &pool.queries)))
+        if (!device_.succeeded(device_.vk().vkCreateQueryPool(device_.handle(), &info, nullptr, &pool.queries)))
             return kNoMark;
         device_.setName(VK_OBJECT_TYPE_QUERY_POOL, uint64_t(pool.queries), "timers");
         pools_.push_back(std::move(pool));

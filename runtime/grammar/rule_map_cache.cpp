@@ -46,7 +46,7 @@ std::optional<RuleMap> RuleMapCache::find(uint64_t contentHash) const {
 
 Status RuleMapCache::keep(const RuleMap& map) const {
     const std::vector<uint8_t> bytes = map.save();
-    Status written = writeFile(fileOf(map.contentHash()), std::as_bytes(std::span(bytes)));
+    Status written = writeFile(fileOf(map.contentHash()), std::as_bytes(std::span(bytes)), Links::replace);
     if (written) dropOldest();
     return written;
 }

@@ -78,7 +78,7 @@ EspResult create(const EspContextDef& def, EspContext** out) {
     context->device = std::move(*device);
     if (!def.skipSelfCheck)
         if (Status checked = checkDevice(*context->device, context->cacheFolder); !checked)
-            return failAlone(gpuCode(*context), checked.failure().text());
+            return failAlone(gpuCode(*context, checked.failure()), checked.failure().text());
 
     const std::filesystem::path terminals = def.terminals ? def.terminals : contentFolder() / "terminals.glb";
     context->roofMeshFile = std::filesystem::path(terminals).replace_filename("roofs.glb");
@@ -88,12 +88,12 @@ EspResult create(const EspContextDef& def, EspContext** out) {
     if (!meshes) return failAlone(ESP_INVALID_CONTENT, meshes.failure().text());
 
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(*context->device, std::move(*meshes));
-    if (!renderer) return failAlone(gpuCode(*context), renderer.failure().text());
+    if (!renderer) return failAlone(gpuCode(*context, renderer.failure()), renderer.failure().text());
     context->renderer = std::move(*renderer);
     // Room for a well-grown scene, so that only large ones have to grow twice.
     const GrowthRoom room{.chunks = 32768, .nodes = 262144, .branches = 32768, .leaves = 262144, .items = 32768};
     Result<std::unique_ptr<Growth>> growth = Growth::create(*context->device, room);
-    if (!growth) return failAlone(gpuCode(*context), growth.failure().text());
+    if (!growth) return failAlone(gpuCode(*context, growth.failure()), growth.failure().text());
     context->growth = std::move(*growth);
     *out = context.release();
     return ESP_OK;
@@ -123,9 +123,11 @@ EspResult fail(const EspContext* context, EspResult code, std::string message) {
     return code;
 }
 
-EspResult gpuCode(const EspContext& context) {
-    if (context.device->faulty()) return ESP_NO_DEVICE;
-    return context.device->lost() ? ESP_DEVICE_LOST : ESP_OUT_OF_MEMORY;
+EspResult gpuCode(const EspContext& context, const Failure& failure) {
+    using Cause = Failure::Cause;
+    if (context.device->lost() || failure.cause == Cause::lost) return ESP_DEVICE_LOST;
+    if (failure.cause == Cause::fault) return ESP_NO_DEVICE;
+    return failure.cause == Cause::driver ? ESP_DRIVER_FAILED : ESP_OUT_OF_MEMORY;
 }
 
 EspResult failContent(const EspContext* context, const Failure& failure) {
@@ -133,11 +135,11 @@ EspResult failContent(const EspContext* context, const Failure& failure) {
 }
 
 EspResult failGpu(const EspContext* context, const Failure& failure) {
-    return fail(context, gpuCode(*context), failure.text());
+    return fail(context, gpuCode(*context, failure), failure.text());
 }
 
 EspResult failWork(const EspContext* context, const Failure& failure) {
-    return failure.ofDevice ? failGpu(context, failure) : failContent(context, failure);
+    return failure.ofDevice() ? failGpu(context, failure) : failContent(context, failure);
 }
 
 std::string whyUnreadable(const char* path) {
@@ -179,9 +181,8 @@ void espDestroy(EspContext* context) {
     try {
         if (!finishFrames(*context->device, "destroy")) (void)context->device->waitIdle();
     } catch (...) {  // without memory for that the host's frames are not waited for
-        (void)context->device->waitIdle();
     }
-    delete context;
+    delete context;  // which waits for what we have submitted
 }
 
 EspResult espTrim(EspContext* context) {

@@ -35,8 +35,8 @@ EspResult freeze(EspContext& context, PlantedSeed& seed, uint32_t id) {
     const auto at = std::ranges::find(context.grownSeeds, id);
     if (at == context.grownSeeds.end())
         return fail(&context, ESP_INVALID_ARGUMENT, "espFreezePlant: nothing has grown from the seed yet");
-    const Plants* plants = readPlants(context);
-    if (!plants) return gpuCode(context);
+    const Plants* plants = nullptr;
+    if (const EspResult failed = readPlants(context, plants)) return failed;
     auto plant = std::make_shared<PlantRecords>(plantOf(plants->records(), uint32_t(at - context.grownSeeds.begin())));
     if (!standsYet(context, *plant))
         return fail(

@@ -11,17 +11,16 @@
 
 namespace espalier {
 
-const Plants* readPlants(EspContext& context) {
+EspResult readPlants(EspContext& context, const Plants*& out) {
     const uint64_t revision = context.growth->view().revision;
-    if (context.plants && context.plantsRevision == revision) return &*context.plants;
-    Result<GrowthRecords> records = context.growth->read();
-    if (!records) {
-        (void)failGpu(&context, records.failure());
-        return nullptr;
+    if (!context.plants || context.plantsRevision != revision) {
+        Result<GrowthRecords> records = context.growth->read();
+        if (!records) return failGpu(&context, records.failure());
+        context.plants.emplace(std::move(*records), context.stands());
+        context.plantsRevision = revision;
     }
-    context.plants.emplace(std::move(*records), context.stands());
-    context.plantsRevision = revision;
-    return &*context.plants;
+    out = &*context.plants;
+    return ESP_OK;
 }
 
 namespace {
@@ -35,8 +34,8 @@ EspSeed seedOf(const EspContext& context, const Plants& plants, uint32_t branch)
 }
 
 EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, EspPlantHit* out) {
-    const Plants* plants = readPlants(context);
-    if (!plants) return gpuCode(context);
+    const Plants* plants = nullptr;
+    if (const EspResult failed = readPlants(context, plants)) return failed;
     direction = unitOf(direction);
     // What a surface hides isn't picked; a stem lies on its surface, so a little behind it is not behind.
     const auto wall = pickSurfaces(context, origin, direction);
@@ -55,8 +54,8 @@ EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, 
 }
 
 EspResult branchInfo(EspContext& context, uint64_t branch, EspBranchInfo* out) {
-    const Plants* plants = readPlants(context);
-    if (!plants) return gpuCode(context);
+    const Plants* plants = nullptr;
+    if (const EspResult failed = readPlants(context, plants)) return failed;
     const auto index = plants->findBranch(branch);
     if (!index) return fail(&context, ESP_INVALID_ARGUMENT, "espBranchInfo: no such branch has grown");
     const uint32_t parent = plants->parentOf(*index).value_or(*index);
@@ -66,8 +65,8 @@ EspResult branchInfo(EspContext& context, uint64_t branch, EspBranchInfo* out) {
 }
 
 EspResult branchPath(EspContext& context, uint64_t branch, EspPathSample* samples, uint32_t* count) {
-    const Plants* plants = readPlants(context);
-    if (!plants) return gpuCode(context);
+    const Plants* plants = nullptr;
+    if (const EspResult failed = readPlants(context, plants)) return failed;
     const auto index = plants->findBranch(branch);
     if (!index) return fail(&context, ESP_INVALID_ARGUMENT, "espBranchPath: no such branch has grown");
     const std::vector<uint32_t> nodes = plants->nodesOf(*index);
@@ -89,8 +88,8 @@ EspResult branchPath(EspContext& context, uint64_t branch, EspPathSample* sample
 }
 
 EspResult plantInfo(EspContext& context, uint32_t id, const PlantedSeed& seed, EspPlantInfo* out) {
-    const Plants* plants = readPlants(context);
-    if (!plants) return gpuCode(context);
+    const Plants* plants = nullptr;
+    if (const EspResult failed = readPlants(context, plants)) return failed;
     PlantExtent extent;
     const auto grown = std::ranges::find(context.grownSeeds, id);
     if (grown != context.grownSeeds.end())

@@ -44,7 +44,7 @@ EspResult setProps(EspContext& context, const char* path, const EspPropPlace* pl
     if (EspResult bad = findPlaces(context, *models, places, count, found)) return bad;
     Status set = context.renderer->setProps(std::move(*models), std::move(found));
     if (set) return ESP_OK;
-    if (set.failure().ofDevice) return failGpu(&context, set.failure());
+    if (set.failure().ofDevice()) return failGpu(&context, set.failure());
     return fail(&context, ESP_INVALID_CONTENT, std::string(path) + ": " + set.failure().text());
 }
 

@@ -127,7 +127,7 @@ EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
         grown = context.roofs->growHouses(inputs, town.changed);
     else if (!town.painted.empty())
         grown = context.roofs->showLayers(inputs);
-    if (!grown && grown.failure().ofDevice) return failGpu(&context, grown.failure());
+    if (!grown && grown.failure().ofDevice()) return failGpu(&context, grown.failure());
     if (!grown)
         return fail(&context, ESP_INVALID_CONTENT, grammar.name + ": " + grown.failure().diagnostics.front().message);
     const RoofView view = context.roofs->view();

@@ -162,7 +162,8 @@ struct PaintStroke {
 };
 
 // Inputs that couldn't be grown, and why. What failed fails again, and trying it anew in each frame would only cost;
-// but memory may have come back, so growth that found too little is tried again after 1, 2, 4 ... calls, at most 1,024.
+// but memory may have come back, or the driver may do better, so such growth is tried again after 1, 2, 4 ... calls, at
+// most 1,024.
 class FailedInputs {
   public:
     using Revision = std::array<uint64_t, 2>;
@@ -170,14 +171,14 @@ class FailedInputs {
     // Whether these inputs are known to fail and aren't to be tried by this call.
     bool known(Revision inputs) {
         if (result_ == ESP_OK || inputs != inputs_) return false;
-        return result_ != ESP_OUT_OF_MEMORY || ++calls_ < wait_;
+        return !passes() || ++calls_ < wait_;
     }
     EspResult tell(std::string& error) const {
         error = why_;
         return result_;
     }
     EspResult note(Revision inputs, EspResult result, const std::string& why) {
-        const bool again = result_ == ESP_OUT_OF_MEMORY && inputs == inputs_;
+        const bool again = passes() && inputs == inputs_;
         wait_ = again ? std::min(2 * wait_, 1024u) : 1;
         calls_ = 0;
         inputs_ = inputs;
@@ -187,6 +188,8 @@ class FailedInputs {
     EspResult forget() { return result_ = ESP_OK; }
 
   private:
+    bool passes() const { return result_ == ESP_OUT_OF_MEMORY || result_ == ESP_DRIVER_FAILED; }
+
     EspResult result_ = ESP_OK;
     Revision inputs_{};
     uint32_t wait_ = 1, calls_ = 0;

@@ -18,6 +18,12 @@
 #include "runtime/plugin/id_table.hpp"
 #include "runtime/render/renderer.hpp"
 
+namespace espalier {
+
+using SurfaceTable = IdTable<PlacedSurface, 8>;  // a place is the number of an instance, of 8 bits in read sets
+
+}  // namespace espalier
+
 // What the C ABI calls a context. Every function of the ABI goes through guarded().
 struct EspContext {
     espalier::Log log;
@@ -36,12 +42,13 @@ struct EspContext {
     std::filesystem::path roofMeshFile;
     std::optional<espalier::LoadedTown> town;
     uint64_t grammarRevisions = 0, towns = 0;
-    espalier::IdTable<espalier::PlacedSurface> surfaces;
-    espalier::IdTable<espalier::LoadedGrammar> grammars;
-    espalier::IdTable<espalier::PlantedSeed> seeds;
+    espalier::ContextNumber number;
+    espalier::SurfaceTable surfaces{number.value()};
+    espalier::IdTable<espalier::LoadedGrammar, 10> grammars{number.value()};
+    espalier::IdTable<espalier::PlantedSeed, 20> seeds{number.value()};
     std::vector<espalier::PaintedLayer> layers;
     uint64_t layersMade = 0;  // ever
-    espalier::IdTable<espalier::PaintStroke> strokes;
+    espalier::IdTable<espalier::PaintStroke, 20> strokes{number.value()};
     std::map<std::string, std::optional<float>, std::less<>> filled;  // with what, as a whole: erasing leads there
     std::unique_ptr<espalier::Painter> painter;                       // made with the first stroke
     std::vector<espalier::SceneLayer> sceneLayers;

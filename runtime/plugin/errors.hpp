@@ -16,8 +16,8 @@ EspResult fail(const EspContext* context, EspResult code, std::string message);
 constexpr const char* kNoMemory = "out of memory";  // short enough to take none
 // Likewise a file's mistakes, as INVALID_CONTENT.
 EspResult failContent(const EspContext* context, const Failure& failure);
-// For failures of GPU work: NO_DEVICE, DEVICE_LOST or OUT_OF_MEMORY, as the device says.
-EspResult gpuCode(const EspContext& context);
+// For failures of GPU work: NO_DEVICE, DEVICE_LOST, OUT_OF_MEMORY or DRIVER_FAILED.
+EspResult gpuCode(const EspContext& context, const Failure& failure);
 EspResult failGpu(const EspContext* context, const Failure& failure);
 // For work that may also refuse what it is given, as INVALID_CONTENT.
 EspResult failWork(const EspContext* context, const Failure& failure);

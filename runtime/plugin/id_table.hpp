@@ -6,17 +6,29 @@
 #include <utility>
 #include <vector>
 
+#include "runtime/plugin/context_number.hpp"
+
 namespace espalier {
 
-// Objects by plain 32-bit ids: bits 31..20 generation (from 1), 19..0 place + 1, so that 0 is no object. A place
-// is used again with the next generation; once its generations are used up it stays empty, so no id ever comes
-// twice. T: movable. A value stays where it is until it is erased, so that strings of its own may be handed out.
-template <class T>
+// Objects by plain 32-bit ids:
+//
+//   31        26 25                0
+//   | context  | generation | place |
+//
+// Generations begin at 1, so that 0 is no object. A place is used again with the next generation; once its generations
+// are used up it stays empty, so no id ever comes twice. The context's number makes other contexts refuse the id.
+// T: movable. A value stays where it is until it is erased, so that strings of its own may be handed out.
+template <class T, uint32_t kPlaceBits>
 class IdTable {
   public:
-    static constexpr uint32_t kPlaceBits = 20;
-    static constexpr uint32_t kMaxPlaces = (1u << kPlaceBits) - 2;
-    static constexpr uint32_t kLastGeneration = (1u << (32 - kPlaceBits)) - 1;
+    static constexpr uint32_t kMaxPlaces = (1u << kPlaceBits) - 1;
+    static constexpr uint32_t kGenerationBits = 32 - kContextBits - kPlaceBits;
+    static constexpr uint32_t kLastGeneration = (1u << kGenerationBits) - 1;
+
+    // context: a ContextNumber.
+    explicit IdTable(uint32_t context) : context_(context << (kGenerationBits + kPlaceBits)) {}
+    // Of the object of this id, or of what was there.
+    static uint32_t placeOf(uint32_t id) { return id & kMaxPlaces; }
 
     // 0 if there is no place left.
     uint32_t insert(T value) {
@@ -59,7 +71,7 @@ class IdTable {
     // Of what is at a place; 0: nothing.
     uint32_t idAt(uint32_t place) const {
         if (place >= slots_.size() || !slots_[place].value) return 0;
-        return (slots_[place].generation << kPlaceBits) | (place + 1);
+        return context_ | (slots_[place].generation << kPlaceBits) | place;
     }
     // Of the index-th in order of places; index below size().
     uint32_t nth(uint32_t index) const {
@@ -86,14 +98,12 @@ class IdTable {
         uint32_t generation = 1;
     };
 
-    static uint32_t placeOf(uint32_t id) { return (id & ((1u << kPlaceBits) - 1)) - 1; }
     Slot* slotOf(uint32_t id) {
         const uint32_t place = placeOf(id);
-        if (id == 0 || place >= slots_.size()) return nullptr;
-        Slot& slot = slots_[place];
-        return slot.value && slot.generation == id >> kPlaceBits ? &slot : nullptr;
+        return id != 0 && idAt(place) == id ? &slots_[place] : nullptr;
     }
 
+    uint32_t context_;  // in the bits of ids
     std::deque<Slot> slots_;
     std::vector<uint32_t> free_;
     uint32_t count_ = 0;

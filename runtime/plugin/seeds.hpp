@@ -12,8 +12,8 @@ namespace espalier {
 uint64_t seedKey(const PlantedSeed& seed);
 // Takes a seed out, and all notes of it.
 void removeSeed(EspContext& context, uint32_t id);
-// The plants as last grown, read back if that is still to do; null on failure, which is noted.
-const Plants* readPlants(EspContext& context);
+// The plants as last grown, read back if that is still to do. `out` belongs to the context.
+EspResult readPlants(EspContext& context, const Plants*& out);
 // Makes the variants that seeds ask for, and brings up to date those whose grammar has changed.
 Status refreshVariants(EspContext& context);
 // Notes for the next growth what grows otherwise by these rules than by those that stood in their place. index: among

@@ -12,7 +12,7 @@ namespace espalier {
 
 // The number by which nodes and kernels know the surface of this id.
 inline uint32_t instanceOf(uint32_t surfaceId) {
-    return (surfaceId & ((1u << IdTable<PlacedSurface>::kPlaceBits) - 1)) - 1;
+    return SurfaceTable::placeOf(surfaceId);
 }
 
 // Of two places of a surface: a turn's columns are rounded.

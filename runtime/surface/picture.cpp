@@ -1,59 +1,123 @@
 // In: the bytes of a picture's file, as hostile as they come. Out: its texels.
 #include "runtime/surface/picture.hpp"
 
-#include <stb_image.h>
-
+#include <algorithm>
 #include <cstring>
-#include <memory>
-#include <new>
+#include <iterator>
+#include <utility>
+
+#include "runtime/surface/picture_codecs.hpp"
 
 namespace espalier {
 namespace {
 
-constexpr int kMaxSide = 16384;
+constexpr uint32_t kMaxSide = 16384;
 
-// By the library's words, as it was built for programs or for users.
-bool wantsMemory(std::string_view reason) {
-    return reason == "outofmem" || reason == "Out of memory";
+bool beginsWith(std::span<const std::byte> bytes, std::string_view magic) {
+    return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
+}
+
+bool isJpeg(std::span<const std::byte> bytes) {
+    return beginsWith(bytes, "\xFF\xD8\xFF");
+}
+
+uint32_t bigEndian(std::span<const std::byte> bytes, size_t at) {
+    uint32_t value = 0;
+    for (size_t i = 0; i < 4; ++i) value = value << 8 | uint32_t(bytes[at + i]);
+    return value;
+}
+
+// By the header, which comes first.
+bool measurePng(std::span<const std::byte> bytes, PictureSides& out, std::string& why) {
+    constexpr size_t kWidth = 16, kHeight = 20, kEnd = 33;  // of the header, with its checksum
+    if (bytes.size() < kEnd) {
+        why = "it has no header";
+        return false;
+    }
+    out = {bigEndian(bytes, kWidth), bigEndian(bytes, kHeight)};
+    return true;
+}
+
+uint64_t texelsOf(PictureSides sides) {
+    return uint64_t(sides.width) * sides.height;
+}
+
+// A progressive JPEG goes over all texels once a scan. Coded data have no 0xFF 0xDA, which begins one.
+uint64_t scansOf(std::span<const std::byte> bytes) {
+    if (!isJpeg(bytes)) return 1;
+    constexpr std::byte kMark[] = {std::byte(0xFF), std::byte(0xDA)};
+    uint64_t scans = 0;
+    for (auto at = bytes.begin();
+         (at = std::search(at, bytes.end(), std::begin(kMark), std::end(kMark))) != bytes.end(); at += 2)
+        ++scans;
+    return scans;
+}
+
+// What the first bytes say; nothing is decoded yet.
+Result<PictureSides> sidesOf(std::span<const std::byte> bytes, std::string_view file, uint32_t maxSide) {
+    constexpr uint64_t kMostWork = uint64_t(1) << 33;  // texels over all scans
+    constexpr uint64_t kMostTexels = 8 * 16 * 16;      // that a byte of a JPEG stands for: a bit for the largest block
+    if (!isPicture(bytes)) return Failure(file, "neither PNG nor JPEG");
+    if (bytes.size() > size_t(INT32_MAX)) return Failure(file, "more than 2 GiB");
+    PictureSides sides;
+    std::string why;
+    if (!(isJpeg(bytes) ? measureJpeg(bytes, sides, why) : measurePng(bytes, sides, why)))
+        return Failure(file, "damaged image: " + why);
+    const std::string size = std::to_string(sides.width) + "×" + std::to_string(sides.height) + " texels";
+    if (sides.width < 1 || sides.height < 1 || sides.width > maxSide || sides.height > maxSide)
+        return Failure(file, size + "; 1 to " + std::to_string(maxSide) + " a side are read");
+    const uint64_t texels = texelsOf(sides), scans = scansOf(bytes);
+    // libjpeg takes missing ones for grey.
+    if (isJpeg(bytes) && bytes.size() < texels / kMostTexels)
+        return Failure(file, "damaged image: " + std::to_string(bytes.size()) + " bytes are too few for " + size);
+    if (scans > kMostWork / texels)
+        return Failure(file, size + " in " + std::to_string(scans) + " scans are too many to be decoded");
+    return sides;
+}
+
+template <class T>
+Result<std::vector<T>> decode(std::span<const std::byte> bytes, std::string_view file) {
+    std::vector<T> texels;
+    std::string why;
+    if (!(isJpeg(bytes) ? decodeJpeg(bytes, texels, why) : decodePng(bytes, texels, why)))
+        return Failure(file, "damaged image: " + why);
+    return texels;
 }
 
 }  // namespace
 
 bool isPicture(std::span<const std::byte> bytes) {
-    auto beginsWith = [&](std::string_view magic) {
-        return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
-    };
-    return beginsWith("\x89PNG\r\n\x1A\n") || beginsWith("\xFF\xD8\xFF");
+    return beginsWith(bytes, "\x89PNG\r\n\x1A\n") || isJpeg(bytes);
 }
 
 Result<uint64_t> texelsOf(std::span<const std::byte> bytes, std::string_view file) {
-    int width = 0, height = 0, channels = 0;
-    if (!isPicture(bytes)) return Failure(file, "neither PNG nor JPEG");
-    if (bytes.size() > size_t(INT32_MAX)) return Failure(file, "more than 2 GiB");
-    if (!stbi_info_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), int(bytes.size()), &width, &height,
-                               &channels))
-        return Failure(file, std::string("damaged image: ") + stbi_failure_reason());
-    if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide)
-        return Failure(file,
-                       std::to_string(width) + "×" + std::to_string(height) + " texels; 1 to 16384 a side are read");
-    return uint64_t(width) * uint64_t(height);
+    const Result<PictureSides> sides = sidesOf(bytes, file, kMaxSide);
+    if (!sides) return sides.failure();
+    return texelsOf(sides.value());
 }
 
 Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view file, uint64_t maxTexels) {
-    const Result<uint64_t> count = texelsOf(bytes, file);
-    if (!count) return count.failure();
-    if (count.value() > maxTexels) return Failure(file, std::to_string(count.value()) + " texels, absurdly many here");
-    int width = 0, height = 0, channels = 0;
-    std::unique_ptr<stbi_uc, void (*)(void*)> texels(
-        stbi_load_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), int(bytes.size()), &width, &height,
-                              &channels, 4),
-        stbi_image_free);
-    if (!texels && wantsMemory(stbi_failure_reason())) throw std::bad_alloc();
-    if (!texels) return Failure(file, std::string("damaged image: ") + stbi_failure_reason());
+    const Result<PictureSides> sides = sidesOf(bytes, file, kMaxSide);
+    if (!sides) return sides.failure();
+    if (const uint64_t texels = texelsOf(sides.value()); texels > maxTexels)
+        return Failure(file, std::to_string(texels) + " texels, absurdly many here");
+    Result<std::vector<uint8_t>> texels = decode<uint8_t>(bytes, file);
+    if (!texels) return texels.failure();
     Picture out;
-    out.width = uint32_t(width);
-    out.height = uint32_t(height);
-    out.rgba.assign(texels.get(), texels.get() + size_t(width) * size_t(height) * 4);
+    out.width = sides.value().width;
+    out.height = sides.value().height;
+    out.rgba = std::move(*texels);
+    return out;
+}
+
+Result<UvPicture> decodeGrey(std::span<const std::byte> bytes, std::string_view file, uint32_t maxSide) {
+    const Result<PictureSides> sides = sidesOf(bytes, file, maxSide);
+    if (!sides) return sides.failure();
+    const Result<std::vector<uint16_t>> texels = decode<uint16_t>(bytes, file);
+    if (!texels) return texels.failure();
+    UvPicture out{sides.value().width, sides.value().height, {}};
+    out.texels.assign(texels.value().begin(), texels.value().end());
+    for (float& value : out.texels) value /= 65535.0f;
     return out;
 }
 

@@ -6,6 +6,7 @@
 
 #include "runtime/core/result.hpp"
 #include "runtime/surface/surface.hpp"
+#include "runtime/surface/uv_picture.hpp"
 
 namespace espalier {
 
@@ -19,5 +20,7 @@ bool isPicture(std::span<const std::byte> bytes);
 // formats, damage, more than maxTexels. Throws std::bad_alloc alone, for want of memory; may be called from any thread.
 Result<Picture> decodePicture(std::span<const std::byte> bytes, std::string_view file,
                               uint64_t maxTexels = uint64_t(1) << 28);
+// Likewise its grey, of 8 or 16 bits, as 0 to 1, of up to maxSide texels a side.
+Result<UvPicture> decodeGrey(std::span<const std::byte> bytes, std::string_view file, uint32_t maxSide);
 
 }  // namespace espalier

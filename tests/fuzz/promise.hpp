@@ -7,7 +7,10 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <string_view>
 
 #include "runtime/core/result.hpp"
 #include "tests/fuzz/targets.hpp"
@@ -31,6 +34,39 @@ class MemoryFile {
   private:
     int fd_;
 };
+
+// A folder in memory that is empty, and goes with the process.
+class MemoryFolder {
+  public:
+    MemoryFolder() {
+        const char* shared = "/dev/shm";
+        std::error_code none;
+        const std::filesystem::path place =
+            std::filesystem::is_directory(shared, none) ? shared : std::filesystem::temp_directory_path();
+        std::string name = (place / "espalier-fuzz-XXXXXX").string();
+        if (!::mkdtemp(name.data())) std::abort();
+        path = name;
+    }
+    ~MemoryFolder() {
+        clear();
+        std::error_code none;
+        std::filesystem::remove(path, none);
+    }
+    MemoryFolder(const MemoryFolder&) = delete;
+    void clear() const {
+        std::error_code none;
+        for (const auto& entry : std::filesystem::directory_iterator(path, none))
+            std::filesystem::remove_all(entry.path(), none);
+    }
+    void write(const std::string& name, std::string_view text) const {
+        std::ofstream(path / name, std::ios::binary).write(text.data(), std::streamsize(text.size()));
+    }
+    std::filesystem::path path;
+};
+
+inline std::string_view textOf(Bytes bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 
 inline void require(bool kept, const char* promise) {
     if (kept) return;

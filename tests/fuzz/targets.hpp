@@ -22,14 +22,21 @@ void plant(Bytes bytes);      // the reader of frozen plants
 void scene(Bytes bytes);      // the reader of scene files, and reading what it wrote
 void terminals(Bytes bytes);  // the reader of meshes that are drawn, and measuring their levels of detail
 void run(Bytes bytes);        // the reader of recorded editing runs, and reading what was written of one
+void picture(Bytes bytes);    // both readers of pictures, of scenes and of surfaces
+void rulemap(Bytes bytes);    // loading a compiled grammar, and setting its parameters
+void site(Bytes bytes);       // the reader of a scene's furniture
+void town(Bytes bytes);       // the reader of GeoJSON and plans alone, without the roofs
+void project(Bytes bytes);    // reading a project, and saving it into a folder that may hold links
+void preset(Bytes bytes);     // the readers of a preset and of the window's layout
 
 struct Target {
     const char* name;
     void (*run)(Bytes);
 };
 inline constexpr Target kTargets[] = {
-    {"gltf", gltf},           {"obj", obj},         {"ply", ply},   {"stl", stl},     {"mtl", mtl},
-    {"surface", surface},     {"grammar", grammar}, {"roof", roof}, {"plant", plant}, {"scene", scene},
-    {"terminals", terminals}, {"run", run}};
+    {"gltf", gltf},           {"obj", obj},         {"ply", ply},         {"stl", stl},         {"mtl", mtl},
+    {"surface", surface},     {"grammar", grammar}, {"roof", roof},       {"plant", plant},     {"scene", scene},
+    {"terminals", terminals}, {"run", run},         {"picture", picture}, {"rulemap", rulemap}, {"site", site},
+    {"town", town},           {"project", project}, {"preset", preset}};
 
 }  // namespace espalier::fuzz

@@ -1,9 +1,11 @@
 // What a host meets when the driver fails: every step of a context's life either works or gives an error code and a
 // message, memory that was short for a moment costs nothing that stood before, and what is left can be destroyed.
 #include <doctest/doctest.h>
+#include <vulkan/vulkan_core.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <string>
 
 #include "tests/plugin/life.hpp"
@@ -93,6 +95,81 @@ TEST_CASE("Memory that runs out once costs the call that needed it, and nothing 
         CHECK(life.read());
         CHECK(life.stats().hash == hash);
     }
+}
+
+namespace {
+
+// Of the specification, of extensions and of none; what a host is told of each.
+struct OddResult {
+    int result;
+    EspResult code;
+    const char* said;
+};
+const OddResult kOddResults[] = {
+    {VK_ERROR_MEMORY_MAP_FAILED, ESP_DRIVER_FAILED, "driver failed (VK_ERROR_MEMORY_MAP_FAILED)"},
+    {VK_ERROR_FORMAT_NOT_SUPPORTED, ESP_DRIVER_FAILED, "driver failed (VK_ERROR_FORMAT_NOT_SUPPORTED)"},
+    {VK_ERROR_FRAGMENTED_POOL, ESP_OUT_OF_MEMORY, "out of GPU memory"},
+    {VK_ERROR_DEVICE_LOST, ESP_DEVICE_LOST, "lost"},
+    {VK_ERROR_UNKNOWN, ESP_DRIVER_FAILED, "driver failed (VK_ERROR_UNKNOWN)"},
+    {VK_ERROR_SURFACE_LOST_KHR, ESP_DRIVER_FAILED, "driver failed (VkResult -1000000000)"},
+    {-123456789, ESP_DRIVER_FAILED, "driver failed (VkResult -123456789)"},
+    {VK_TIMEOUT, ESP_DRIVER_FAILED, "driver failed (VK_TIMEOUT)"},
+    {VK_INCOMPLETE, ESP_DRIVER_FAILED, "driver failed (VK_INCOMPLETE)"},
+    {VK_PIPELINE_COMPILE_REQUIRED, ESP_DRIVER_FAILED, "driver failed (VK_PIPELINE_COMPILE_REQUIRED)"},
+    {77, ESP_DRIVER_FAILED, "driver failed (VkResult 77)"},
+};
+
+// Takes the steps that a life still lacks.
+bool goOn(Life& life, const FailingDevice& device) {
+    if (!life.context && !life.create(device)) return false;
+    if (!life.surface.id && !life.load()) return false;
+    if (!life.grammar.id && !life.compile()) return false;
+    if (!life.seed.id && !life.plant(1)) return false;
+    return life.update() && life.draw() && life.read();
+}
+
+}  // namespace
+
+TEST_CASE("No result of a driver's ends the process: each is told for what it is, and the next try goes on") {
+    FailingDevice device;
+    uint64_t hash = 0;
+    {
+        Life life;
+        REQUIRE(life.all(device));
+        hash = life.stats().hash;
+    }
+    const uint32_t rounds = std::getenv("ESPALIER_EVERY_FAILURE") ? uint32_t(std::size(kOddResults)) : 1;
+    uint32_t met = 0;
+    for (uint32_t round = 0; round < rounds; ++round)
+        for (const char* function : FailingDevice::functions()) {
+            const OddResult& odd = kOddResults[(met++ + round) % std::size(kOddResults)];
+            CAPTURE(function);
+            CAPTURE(odd.result);
+            Life life;
+            device.answerOddly(function, 0, odd.result);
+            const bool whole = life.all(device);
+            CAPTURE(life.failedStep);
+            if (!whole) {
+                const bool making = !life.context && life.result == ESP_NO_DEVICE;
+                CHECK((making || life.result == odd.code));
+                const std::string message = espLastError(life.context);
+                CHECK_MESSAGE(message.find(odd.said) != std::string::npos, message);
+            }
+            if (odd.code == ESP_DEVICE_LOST && life.context) continue;
+            for (int i = 0; i < 3 && !goOn(life, device); ++i) continue;  // a failed growth isn't tried at once
+            CHECK(life.stats().hash == hash);
+        }
+}
+
+TEST_CASE("A failed map of memory isn't told as want of memory") {
+    FailingDevice device;
+    Life life;
+    device.answerOddly("vkMapMemory", 0, VK_ERROR_MEMORY_MAP_FAILED);
+    CHECK_FALSE(life.create(device));
+    CHECK(life.result == ESP_DRIVER_FAILED);
+    const std::string message = espLastError(nullptr);
+    CHECK_MESSAGE(message.find("VK_ERROR_MEMORY_MAP_FAILED) while mapping its memory") != std::string::npos, message);
+    CHECK(message.find("out of") == std::string::npos);
 }
 
 TEST_CASE("Memory that runs out in a regrowth leaves the last plant standing") {

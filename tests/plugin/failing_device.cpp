@@ -22,6 +22,8 @@ struct Plan {
     FailingDevice::Failure how = FailingDevice::Failure::OutOfMemory;
     uint32_t at = 0, calls = 0;
     const char* failed = "";
+    const char* oddFunction = "";
+    VkResult oddResult = VK_SUCCESS;
 } plan;
 bool finishesAtOnce = false;
 
@@ -32,6 +34,11 @@ VkResult verdict(const char* name, FailingDevice::Failure kind) {
         plan.calls += 1;
         plan.failed = name;
         return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    }
+    if (plan.how == FailingDevice::Failure::Odd) {
+        if (std::strcmp(name, plan.oddFunction) || plan.calls++ != plan.at || !plan.armed) return VK_SUCCESS;
+        plan.failed = name;
+        return plan.oddResult;
     }
     if (plan.lost && kind == FailingDevice::Failure::Lost) return VK_ERROR_DEVICE_LOST;
     if (kind != plan.how) return VK_SUCCESS;
@@ -66,41 +73,37 @@ struct Hook<Number, VkResult(VKAPI_PTR*)(Arguments...)> {
     }
 };
 
-#define HOOK(function, kind)           \
-    if (!std::strcmp(name, #function)) \
-        return Hook<__LINE__, PFN_##function>::over(driver, #function, FailingDevice::Failure::kind);
+// clang-format off
+#define HOOKED(F) \
+    F(vkQueueSubmit2, Lost) F(vkWaitSemaphores, Lost) F(vkGetSemaphoreCounterValue, Lost) F(vkDeviceWaitIdle, Lost) \
+    F(vkGetQueryPoolResults, Lost) F(vkAllocateMemory, OutOfMemory) F(vkMapMemory, OutOfMemory) \
+    F(vkCreateBuffer, OutOfMemory) F(vkBindBufferMemory, OutOfMemory) F(vkCreateBufferView, OutOfMemory) \
+    F(vkCreateImage, OutOfMemory) F(vkBindImageMemory, OutOfMemory) F(vkCreateImageView, OutOfMemory) \
+    F(vkCreateSampler, OutOfMemory) F(vkCreateShaderModule, OutOfMemory) \
+    F(vkCreateDescriptorSetLayout, OutOfMemory) F(vkCreatePipelineLayout, OutOfMemory) \
+    F(vkCreateComputePipelines, OutOfMemory) F(vkCreateGraphicsPipelines, OutOfMemory) \
+    F(vkCreateSemaphore, OutOfMemory) F(vkCreateCommandPool, OutOfMemory) F(vkResetCommandPool, OutOfMemory) \
+    F(vkAllocateCommandBuffers, OutOfMemory) F(vkBeginCommandBuffer, OutOfMemory) \
+    F(vkEndCommandBuffer, OutOfMemory) F(vkCreateQueryPool, OutOfMemory)
+// clang-format on
+
+enum class HookNumber {
+#define NUMBER(function, kind) function,
+    HOOKED(NUMBER)
+#undef NUMBER
+};
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceFunction(VkDevice device, const char* name) {
     const PFN_vkVoidFunction driver = vkGetDeviceProcAddr(device, name);
     if (!driver) return nullptr;
-    HOOK(vkQueueSubmit2, Lost)
-    HOOK(vkWaitSemaphores, Lost)
-    HOOK(vkGetSemaphoreCounterValue, Lost)
-    HOOK(vkDeviceWaitIdle, Lost)
-    HOOK(vkGetQueryPoolResults, Lost)
-    HOOK(vkAllocateMemory, OutOfMemory)
-    HOOK(vkMapMemory, OutOfMemory)
-    HOOK(vkCreateBuffer, OutOfMemory)
-    HOOK(vkBindBufferMemory, OutOfMemory)
-    HOOK(vkCreateBufferView, OutOfMemory)
-    HOOK(vkCreateImage, OutOfMemory)
-    HOOK(vkBindImageMemory, OutOfMemory)
-    HOOK(vkCreateImageView, OutOfMemory)
-    HOOK(vkCreateSampler, OutOfMemory)
-    HOOK(vkCreateShaderModule, OutOfMemory)
-    HOOK(vkCreateDescriptorSetLayout, OutOfMemory)
-    HOOK(vkCreatePipelineLayout, OutOfMemory)
-    HOOK(vkCreateComputePipelines, OutOfMemory)
-    HOOK(vkCreateGraphicsPipelines, OutOfMemory)
-    HOOK(vkCreateSemaphore, OutOfMemory)
-    HOOK(vkCreateCommandPool, OutOfMemory)
-    HOOK(vkAllocateCommandBuffers, OutOfMemory)
-    HOOK(vkBeginCommandBuffer, OutOfMemory)
-    HOOK(vkEndCommandBuffer, OutOfMemory)
-    HOOK(vkCreateQueryPool, OutOfMemory)
+#define HOOK(function, kind)                                                               \
+    if (!std::strcmp(name, #function))                                                     \
+        return Hook<size_t(HookNumber::function), PFN_##function>::over(driver, #function, \
+                                                                        FailingDevice::Failure::kind);
+    HOOKED(HOOK)
+#undef HOOK
     return driver;
 }
-#undef HOOK
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceFunction(VkInstance instance, const char* name) {
     if (!std::strcmp(name, "vkGetDeviceProcAddr")) return reinterpret_cast<PFN_vkVoidFunction>(&deviceFunction);
@@ -160,6 +163,18 @@ void FailingDevice::failAt(uint32_t at, Failure how) {
     plan.armed = true;
     plan.at = at;
     plan.how = how;
+}
+
+void FailingDevice::answerOddly(const char* function, uint32_t at, int result) {
+    failAt(at, Failure::Odd);
+    plan.oddFunction = function;
+    plan.oddResult = VkResult(result);
+}
+
+std::vector<const char*> FailingDevice::functions() {
+#define NAME(function, kind) #function,
+    return {HOOKED(NAME)};
+#undef NAME
 }
 
 void FailingDevice::heal() {

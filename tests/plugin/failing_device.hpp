@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "plugin_api/espalier.h"
 
@@ -14,6 +15,7 @@ class FailingDevice {
         OutOfMemory,  // one call gives VK_ERROR_OUT_OF_DEVICE_MEMORY and does nothing; later calls are as ever
         Full,         // the GPU's memory is all taken: no call of vkAllocateMemory works from now on
         Lost,         // this call and all after it give VK_ERROR_DEVICE_LOST, as after a crash of the GPU
+        Odd,          // see answerOddly
     };
 
     FailingDevice();
@@ -24,6 +26,11 @@ class FailingDevice {
 
     // Fails the call number `at` from now on (0: the next one; without meaning for Full). Counts from 0 again.
     void failAt(uint32_t at, Failure how);
+    // The call number `at` from now on of this function gives `result`, a VkResult that needn't be one, and does
+    // nothing; calls of other functions, and later ones, are as ever. function: a string literal.
+    void answerOddly(const char* function, uint32_t at, int result);
+    // The functions that can fail.
+    static std::vector<const char*> functions();
     // Nothing fails any more.
     void heal();
     // What is submitted has been done when the call returns, as on a fast GPU, or not before long.

@@ -8,7 +8,7 @@
 using namespace espalier;
 
 TEST_CASE("an id finds its object until it is erased, and nothing after") {
-    IdTable<std::string> table;
+    IdTable<std::string, 20> table(0);
     CHECK(table.find(0) == nullptr);
     CHECK(table.find(0xFFFFFFFFu) == nullptr);
     CHECK(!table.erase(0));
@@ -29,7 +29,7 @@ TEST_CASE("an id finds its object until it is erased, and nothing after") {
 }
 
 TEST_CASE("an object stays where it is until it is erased, however many come and go") {
-    IdTable<std::string> table;
+    IdTable<std::string, 20> table(0);
     const uint32_t id = table.insert("short");
     const char* text = table.find(id)->c_str();
     for (int round = 0; round < 100; ++round) {
@@ -42,9 +42,10 @@ TEST_CASE("an object stays where it is until it is erased, however many come and
 }
 
 TEST_CASE("no id ever comes twice, even when a place has used up its generations") {
-    IdTable<int> table;
+    using Table = IdTable<int, 16>;
+    Table table(63);
     std::set<uint32_t> seen;
-    for (uint32_t i = 0; i < 3 * IdTable<int>::kLastGeneration; ++i) {
+    for (uint32_t i = 0; i < 3 * Table::kLastGeneration; ++i) {
         const uint32_t id = table.insert(int(i));
         REQUIRE(id != 0);
         REQUIRE(seen.insert(id).second);

@@ -35,7 +35,7 @@ VKAPI_ATTR void VKAPI_CALL drawNoIndexed(VkCommandBuffer, uint32_t, uint32_t, ui
 std::string faultOf(Device& device) {
     const Status ran = runSelfCheck(device);
     REQUIRE_FALSE(ran);
-    CHECK(device.faulty());
+    CHECK(ran.failure().cause == Failure::Cause::fault);
     const std::string text = ran.failure().text();
     CAPTURE(text);
     CHECK(text.find(device.info().name) != std::string::npos);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "tests/support/small_pictures.hpp"
 #include "tests/tools/program.hpp"
 #include "tools/scene/picture.hpp"
 
@@ -288,6 +289,43 @@ TEST_CASE("a comparison says alike, not alike, or why it can't tell") {
         CHECK(run(compare + a + a + "--share '" + share + "'").code == 2);
     folder.write("torn.png", readAll(folder.file("a.png")).substr(0, 60));
     CHECK(run(compare + a + folder.file("torn.png")).code == 2);
+}
+
+TEST_CASE("a picture of another format, or one that states too much, is refused by every program with its name") {
+    const Folder folder;
+    using namespace espalier::test;
+    const std::string gif = "GIF\xFF" + std::string("9a\x18\xFF\xFF\xFF\x7F\0\0\xFF", 11) + std::string(17, '\x1B');
+    const std::string bmp =
+        "BM" + littleEndian(1292, 4) + std::string(4, '\0') + littleEndian(1078, 4) + littleEndian(40, 4);
+    const std::pair<std::string, const char*> pictures[] = {
+        {gif, "it is a GIF"},
+        {bmp + littleEndian(60000, 4) + littleEndian(60000, 4) + littleEndian(0x80001, 4) + littleEndian(1, 4),
+         "it is a BMP"},
+        {bmp + littleEndian(8192, 4) + littleEndian(245760, 4) + littleEndian(0x80001, 4) + littleEndian(1, 4),
+         "it is a BMP"},
+        {pngOf(60000, 60000), "60000 x 60000 texels"},
+        {jpegOf(65500, 65500), "65500 x 65500 texels"},
+        {exrOf(0, 2000000000), "2000000001 x 2000000001 texels"}};
+    const std::string out = " -o " + folder.file("frames"), capture = program("espalier-capture") + " ";
+    const std::string whole = content("mask.png");
+    folder.write("site.json", R"({"models": ")" + content("props.glb") +
+                                  R"(", "props": {}, "ground": {"map": "bad.png", "low": [0, 0], "high": [1, 1]}})");
+    for (const auto& [bytes, cause] : pictures) {
+        const std::string bad = folder.write("bad.png", bytes);
+        CAPTURE(cause);
+        const Ran compared = run(program("espalier-compare") + " " + whole + " " + bad);
+        CHECK(compared.code == 2);
+        CHECK_MESSAGE(contains(compared.output, bad + ": "), compared.output);
+        CHECK_MESSAGE(contains(compared.output, cause), compared.output);
+        refuses(capture + content("ruin.surface.glb") + " --grammar " + content("grammars/ivy_guided.grammar") +
+                    " --layer mask=" + bad + out,
+                folder, {"bad.png: ", cause});
+        folder.write("sited.json", R"({"surface": ")" + content("ruin.surface.glb") + R"(", "site": "site.json"})");
+        refuses(capture + folder.file("sited.json") + out, folder, {"bad.png: ", cause});
+        refuses(program("espalier-bake") + " -q " + content("ruin.glb") + " --resolution 64 --weights " + bad + " -o " +
+                    folder.file("x.glb"),
+                folder, {"bad.png: "});
+    }
 }
 
 TEST_CASE("a comparison keeps to its tolerance to the last step, of alpha too, and of floats to the bit") {

@@ -104,8 +104,7 @@ Result<Atlas> xatlas(const Bench& bench, const BakeMesh& mesh) {
     const glm::dvec3 middle = (mesh.boundsMin + mesh.boundsMax) / 2.0;
     for (const glm::dvec3& p : mesh.points) append(bytes, glm::vec3((p - middle) * (kRadius / mesh.radius)));
     for (const Triangle& t : mesh.triangles) append(bytes, t.point);
-    const std::string base =
-        (std::filesystem::temp_directory_path() / ("espalier-xatlas-" + std::to_string(std::clock()))).string();
+    const std::string base = neighbourOf(std::filesystem::temp_directory_path() / "espalier-xatlas");
     const std::string in = base + ".in", out = base + ".out";
     Status written = writeFile(in, bytes);
     if (!written) return std::move(written.failure());

@@ -8,8 +8,11 @@
 #include "tools/command_line.hpp"
 #include "tools/scene/heap.hpp"
 
-int main(int argc, char** argv) {
-    using namespace espalier;
+using namespace espalier;
+
+namespace {
+
+int measureAsAsked(int argc, char** argv) {
     scene::keepHeap();
     BenchOptions options;
     std::string csv;
@@ -57,4 +60,10 @@ int main(int argc, char** argv) {
     Status written = bench.writeCsv(csv);
     if (!written) std::fprintf(stderr, "espalier-bench: %s\n", written.failure().text().c_str());
     return written ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return runProgram("espalier-bench", [&] { return measureAsAsked(argc, argv); });
 }

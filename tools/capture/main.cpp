@@ -13,6 +13,7 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "tools/command_line.hpp"
 #include "tools/document/document.hpp"
@@ -398,9 +399,7 @@ std::string readTexts(Options& options) {
     return {};
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int captureAsAsked(int argc, char** argv) {
     CLI::App app{"Grows a scene and writes frames and figures, without a window.", "espalier-capture"};
     Options options;
     addOptions(app, options);
@@ -411,9 +410,11 @@ int main(int argc, char** argv) {
     if (options.request.file.empty() && options.replay.empty())
         return refuse("FILE or --replay says what to show; see --help");
     if (const std::string wrong = readTexts(options); !wrong.empty()) return refuse(wrong);
-    try {
-        return run(options);
-    } catch (const std::exception& e) {
-        return fail(e.what());
-    }
+    return run(std::move(options));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return espalier::runProgram("espalier-capture", [&] { return captureAsAsked(argc, argv); });
 }

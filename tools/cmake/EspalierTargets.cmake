@@ -23,6 +23,12 @@ if(ESPALIER_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
+option(ESPALIER_THREADS "Build with ThreadSanitizer (see tools/check threads)" OFF)
+if(ESPALIER_THREADS)
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=thread)
+endif()
+
 option(ESPALIER_FUZZ "Instrument everything for libFuzzer (clang only; see tools/fuzz)" OFF)
 if(ESPALIER_FUZZ)
   add_compile_options(-O1 -g1 -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=undefined)

@@ -85,9 +85,7 @@ int answer(const Question& asked) {
     return alike ? 0 : 1;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int compareAsAsked(int argc, char** argv) {
     CLI::App app{
         "Compares two pictures pixel by pixel, alpha too. Ends with 0: alike, 1: not alike, also by their sizes, 2: "
         "can't tell.",
@@ -121,4 +119,11 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return fail("there is too little memory to compare " + asked.first + " with " + asked.second);
     }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return espalier::runProgram(
+        "espalier-compare", [&] { return compareAsAsked(argc, argv); }, 2);
 }

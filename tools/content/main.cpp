@@ -9,8 +9,11 @@
 #include "tools/command_line.hpp"
 #include "tools/content/content.hpp"
 
-int main(int argc, char** argv) {
-    using namespace espalier;
+using namespace espalier;
+
+namespace {
+
+int makeAsAsked(int argc, char** argv) {
     CLI::App app{
         "Generates Espalier's sample content: a ruin and its layers, what plants and roofs are made of, props; "
         "with --town also the site around it.",
@@ -36,4 +39,10 @@ int main(int argc, char** argv) {
         return 1;
     }
     return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return runProgram("espalier-content", [&] { return makeAsAsked(argc, argv); });
 }

@@ -9,6 +9,7 @@
 #include "tools/document/layer_history.hpp"
 #include "tools/document/params.hpp"
 #include "tools/scene/daylight.hpp"
+#include "tools/scene/guarded.hpp"
 #include "tools/scene/scene_file.hpp"
 
 namespace espalier::document {
@@ -71,6 +72,10 @@ bool Document::failed(EspResult result, std::string& error) const {
 }
 
 bool Document::open(const scene::Request& request, std::string& error) {
+    return scene::guarded(request.file + ": ", error, [&] { return openGuarded(request, error); });
+}
+
+bool Document::openGuarded(const scene::Request& request, std::string& error) {
     if (!openScene(context_, request, scene_, error)) return false;
     if (!plant(error)) {
         // As while it was edited, seeds of a project wait for a text that grows plants.

@@ -77,6 +77,7 @@ class Document {
     SetText withText(uint32_t grammar, std::string text) const;
 
   private:
+    bool openGuarded(const scene::Request& request, std::string& error);
     struct Step {
         std::string name;
         uint32_t gesture = 0;

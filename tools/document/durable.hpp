@@ -1,38 +1,22 @@
 #pragma once
 
-#include <functional>
 #include <string>
+#include <string_view>
+
+#include "tools/scene/unfinished.hpp"
 
 namespace espalier::document {
 
-using WriteFile = std::function<bool(const std::string& path, std::string& error)>;
+// Files and folders that are known to the disk before these return: whenever the program or the machine stops, a file
+// is the old one or the whole new one. False: `error` names path and cause, and what stood there stands there still, or
+// the new file does and its folder can't be flushed.
 
-// A file that becomes whole or not at all, whenever the program or the machine stops: it is written beside its place,
-// flushed to the disk, and then takes its place, or that of what a link leads to. What doesn't come so far is removed.
-class Unfinished {
-  public:
-    explicit Unfinished(const std::string& path);
-    ~Unfinished();
-    Unfinished(const Unfinished&) = delete;
-    // `make` makes the file of the name that it is given, which has the ending of the path. False: `error` tells file
-    // and cause.
-    bool write(const WriteFile& make, std::string& error);
-    // False: what stood there stands there still, or the new file does and the folder can't be flushed.
-    bool take(std::string& error);
+// Of a path that the user has named: what a link leads to is replaced.
+bool writeTextDurably(const std::string& path, std::string_view text, std::string& error);
+// In a folder: a link in its place is replaced.
+bool writeTextDurably(const scene::Folder& folder, const std::string& name, std::string_view text, std::string& error);
 
-  private:
-    std::string path_, place_, folder_, beside_;  // place_: behind links
-    bool taken_ = false;
-};
-
-// Both.
-bool writeDurably(const std::string& path, const WriteFile& make, std::string& error);
-bool writeTextDurably(const std::string& path, const std::string& text, std::string& error);
-
-// With all folders on the way to it, each known to the disk. False: `error` tells folder and cause.
+// With all folders on the way to it.
 bool makeFolderDurably(const std::string& folder, std::string& error);
-
-// Whether a file of this name is what an interrupted write left behind: its program has ended.
-bool isAbandoned(const std::string& name);
 
 }  // namespace espalier::document

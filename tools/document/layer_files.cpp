@@ -5,8 +5,8 @@
 #include <deque>
 #include <filesystem>
 
-#include "tools/document/durable.hpp"
 #include "tools/scene/layers.hpp"
+#include "tools/scene/unfinished.hpp"
 
 namespace espalier::document {
 
@@ -28,19 +28,20 @@ struct Exported {
 
 // All of them or, before the first is whole, none.
 bool writePictures(std::vector<Exported> pictures, Progress& progress, std::string& error) {
-    std::deque<Unfinished> files;
+    std::deque<scene::Unfinished> files;
     const float each = 1 / float(pictures.size());
     for (Exported& e : pictures) {
         const std::vector<scene::GreyPicture> channels = std::move(e.channels);
         const float written = float(files.size());
         const auto goOn = [&](float part) { return progress.at((written + part) * each); };
-        const auto write = [&](const std::string& beside, std::string& why) {
-            return channels.size() > 1 ? writeColours(beside, channels, why, goOn)
-                                       : writeGrey(beside, channels[0], why, goOn);
-        };
-        if (!goOn(0) || !files.emplace_back(e.path).write(write, error)) return false;
+        std::vector<uint8_t> bytes;
+        if (!goOn(0) || !encodeChannels(e.path, channels, bytes, error, goOn)) return false;
+        scene::Unfinished& file = files.emplace_back(e.path);
+        if (!file.write(scene::asText(bytes), error) || !file.flush(error)) return false;
     }
-    return progress.at(1) && std::ranges::all_of(files, [&](Unfinished& file) { return file.take(error); });
+    return progress.at(1) && std::ranges::all_of(files, [&](scene::Unfinished& file) {
+               return file.take(error) && file.folder().flush(error);
+           });
 }
 
 struct Imported {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "tools/document/fields.hpp"
+#include "tools/scene/guarded.hpp"
 #include "tools/scene/text_file.hpp"
 
 namespace espalier::document {
@@ -47,9 +48,7 @@ std::string* fileOf(Action& action) {
     return nullptr;
 }
 
-}  // namespace
-
-bool readRun(const std::string& path, Run& out, std::string& error) {
+bool readLines(const std::string& path, Run& out, std::string& error) {
     out = Run{};
     std::string text;
     if (!scene::readText(path, text, error)) return false;
@@ -96,6 +95,12 @@ bool readRun(const std::string& path, Run& out, std::string& error) {
     for (RunLine& line : out.lines)
         if (std::string* file = fileOf(line.action)) find(*file);
     return true;
+}
+
+}  // namespace
+
+bool readRun(const std::string& path, Run& out, std::string& error) {
+    return scene::guarded(path + ": ", error, [&] { return readLines(path, out, error); });
 }
 
 bool Recorder::begin(const std::string& path, RunHead head, std::string& error) {

@@ -3,25 +3,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <new>
+
+#include "tools/scene/guarded.hpp"
 
 namespace espalier::document {
-namespace {
 
 // Many large layers may be more than there is memory for, and folders may change while they are read.
-template <class F>
-bool guarded(F&& part, std::string& error) {
-    try {
-        return part();
-    } catch (const std::bad_alloc&) {
-        error = "memory has run out";
-    } catch (const std::exception& e) {
-        error = e.what();
-    }
-    return false;
-}
-
-}  // namespace
+using scene::guarded;
 
 Work::~Work() {
     cancel();
@@ -41,11 +29,11 @@ bool Work::step() {
 bool Work::stepBefore() {
     if (progress_.calledOff_) return end(State::cancelled);
     if (next_ < plan_.before.size()) {
-        if (!guarded([&] { return plan_.before[next_](error_); }, error_)) return end(State::failed);
+        if (!guarded("", error_, [&] { return plan_.before[next_](error_); })) return end(State::failed);
         if (++next_ < plan_.before.size()) return true;
     }
     thread_ = std::async(std::launch::async,
-                         [this] { return guarded([&] { return plan_.beside(progress_, error_); }, error_); });
+                         [this] { return guarded("", error_, [&] { return plan_.beside(progress_, error_); }); });
     return true;
 }
 
@@ -58,7 +46,7 @@ bool Work::stepBeside() {
 }
 
 bool Work::stepAfter() {
-    const bool good = !progress_.calledOff_ && guarded([&] { return plan_.after[next_](error_); }, error_);
+    const bool good = !progress_.calledOff_ && guarded("", error_, [&] { return plan_.after[next_](error_); });
     if (!good && next_ > 0 && plan_.takeBack) plan_.takeBack();
     if (!good) return end(progress_.calledOff_ ? State::cancelled : State::failed);
     return ++next_ < plan_.after.size() ? true : end(State::done);

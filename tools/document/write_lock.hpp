@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tools/document/work.hpp"
+#include "tools/scene/folder.hpp"
 
 namespace espalier::document {
 
@@ -14,8 +15,8 @@ class WriteLock {
     WriteLock() = default;
     ~WriteLock();
     WriteLock(const WriteLock&) = delete;
-    // Waits until others have written. False: it was called off, or `error` says that this took them too long. Where
-    // nothing can be locked nobody is waited for.
+    // Waits until others have written. False: it was called off, or `error` says that this took them too long, or that
+    // a link lies in the lock's place. Where nothing can be locked nobody is waited for.
     bool take(const std::string& folder, std::chrono::seconds longest, Progress& progress, std::string& error);
 
   private:
@@ -23,7 +24,7 @@ class WriteLock {
     bool wait(Clock::time_point end, Progress& progress, std::string& error) const;
     bool isThere() const;
 
-    std::string path_;
+    scene::Folder folder_;
     int file_ = -1;
 };
 

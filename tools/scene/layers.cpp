@@ -2,7 +2,6 @@
 #include "tools/scene/layers.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
 #include <locale>
 #include <sstream>
@@ -32,17 +31,6 @@ std::string whole(const std::vector<std::string>& names, const std::string& name
 }
 
 }  // namespace
-
-bool isLayersName(const std::string& name, std::string& why) {
-    const auto part = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-    const std::string channel = name.substr(name.size() - std::min<size_t>(name.size(), 2));
-    const std::string stem =
-        holds({std::begin(kChannels), std::end(kChannels)}, channel) ? name.substr(0, name.size() - 2) : name;
-    if (!stem.empty() && std::ranges::all_of(stem, part)) return true;
-    why = "'" + name +
-          "' is no layer's name: a grammar's are of letters, digits and _, and a colour's channels end in .r, .g or .b";
-    return false;
-}
 
 bool isColour(const Scene& scene, const std::string& layer) {
     return holds(scene.colourLayers, layer);

@@ -1,49 +1,107 @@
-// Files of pictures, in and out.
+// Pictures' files in. Every picture that a scene, a document or a program of ours reads comes through openPicture: what
+// its first bytes say is judged before a library sees them, and no library's exception leaves this file.
 #include "tools/scene/picture.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <span>
+#include <memory>
 
+#include "tools/scene/guarded.hpp"
+#include "tools/scene/picture_head.hpp"
 #include "tools/scene/text_file.hpp"
 
 namespace espalier::scene {
 namespace {
 
-constexpr int kMaxSide = 8192, kMaxFrameSide = 16384;  // of layers; of pictures that are compared
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+constexpr uint64_t kMaxSide = 64, kMaxFrameSide = 64;  // what is decoded at all shows all mistakes
+#else
+constexpr uint64_t kMaxSide = 8192, kMaxFrameSide = 16384;  // of layers; of pictures that are compared
+#endif
+constexpr uint64_t kMostBytes = uint64_t(1) << 31;  // of a file
+constexpr uint64_t kMostWork = uint64_t(1) << 33;   // texels over all scans
 
-std::string systemReason() {
-    return std::strerror(errno ? errno : EIO);
+// A file in memory. The library's own reader of memory believes any offset that a file states.
+class Memory : public OIIO::Filesystem::IOProxy {
+  public:
+    explicit Memory(const std::string& bytes) : IOProxy("", Read), bytes_(bytes) {}
+    const char* proxytype() const override { return "memory"; }
+    size_t size() const override { return bytes_.size(); }
+    size_t read(void* out, size_t size) override {
+        const size_t got = pread(out, size, m_pos);
+        m_pos += int64_t(got);
+        return got;
+    }
+    size_t pread(void* out, size_t size, int64_t offset) override {
+        if (offset < 0 || uint64_t(offset) >= bytes_.size()) return 0;
+        const size_t got = std::min(size, bytes_.size() - size_t(offset));
+        std::memcpy(out, bytes_.data() + offset, got);
+        return got;
+    }
+
+  private:
+    const std::string& bytes_;
+};
+
+// An open picture, and what it reads from.
+struct Source {
+    std::string bytes;
+    Memory reader;
+    std::unique_ptr<OIIO::ImageInput> input;
+    explicit Source(std::string all) : bytes(std::move(all)), reader(bytes) {}
+    const OIIO::ImageSpec& spec() const { return input->spec(); }
+};
+
+bool fail(const std::string& path, const std::string& why, std::string& error) {
+    error = path + ": " + why.substr(0, why.find('\n'));
+    return false;
 }
 
-std::unique_ptr<OIIO::ImageInput> openPicture(const std::string& path, int maxSide, std::string& error) {
-    if (refused(path, error)) return nullptr;
-    errno = 0;
-    if (!std::ifstream(path, std::ios::binary)) {
-        error = path + ": can't be read: " + systemReason();
+bool damaged(const std::string& path, const std::string& why, std::string& error) {
+    return fail(path, "is damaged: " + why, error);
+}
+
+// Whether the sides that the bytes state are worth decoding.
+bool judge(const std::string& path, const PictureHead& head, size_t bytes, uint64_t maxSide, std::string& error) {
+    const std::string size = std::to_string(head.width) + " x " + std::to_string(head.height) + " texels";
+    if (head.width > maxSide || head.height > maxSide)
+        return fail(path, size + "; 1 to " + std::to_string(maxSide) + " a side are allowed", error);
+    if (bytes < head.leastBytes) return damaged(path, std::to_string(bytes) + " bytes are too few for " + size, error);
+    if (head.scans > kMostWork / (head.width * head.height))
+        return fail(path, size + " in " + std::to_string(head.scans) + " scans are too many to be decoded", error);
+    return true;
+}
+
+// Opened by the library's reader of just this format, which sees the bytes that were judged.
+std::unique_ptr<Source> openPicture(const std::string& path, uint64_t maxSide, std::string& error) {
+    std::string bytes;
+    if (!readText(path, bytes, error, kMostBytes)) return nullptr;
+    PictureHead head;
+    std::string why;
+    if (!readPictureHead(bytes, head, why)) fail(path, why, error);
+    if (!why.empty() || !judge(path, head, bytes.size(), maxSide, error)) return nullptr;
+    auto source = std::make_unique<Source>(std::move(bytes));
+    source->input = OIIO::ImageInput::create(head.format);
+    if (!source->input || !source->input->set_ioproxy(&source->reader)) {
+        fail(path, std::string("can't be read: this machine's OpenImageIO has no reader of ") + head.format, error);
         return nullptr;
     }
-    OIIO::ImageSpec config;
+    OIIO::ImageSpec config, spec;
     config["oiio:UnassociatedAlpha"] = 1;  // red stays what was painted where alpha is not 1
-    std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path, &config);
-    if (!input) {
-        error = path + ": isn't a picture: " + OIIO::geterror();
+    if (!source->input->open(path, spec, config)) {
+        damaged(path, source->input->geterror(), error);
         return nullptr;
     }
-    const OIIO::ImageSpec& spec = input->spec();
-    if (spec.width < 1 || spec.height < 1 || spec.width > maxSide || spec.height > maxSide) {
-        error = path + ": " + std::to_string(spec.width) + " x " + std::to_string(spec.height) + " texels; 1 to " +
-                std::to_string(maxSide) + " a side are allowed";
+    if (spec.width < 1 || spec.height < 1 || uint64_t(spec.width) > head.width || uint64_t(spec.height) > head.height ||
+        spec.depth > 1 || spec.nchannels < 1) {
+        damaged(path, "its header contradicts itself", error);
         return nullptr;
     }
-    return input;
+    return source;
 }
 
 // Whole numbers, which pictures hold as sRGB where they are colours.
@@ -63,35 +121,40 @@ bool limit(const std::string& path, std::vector<float>& texels, uint64_t& limite
     return true;
 }
 
-bool damaged(const std::string& path, const OIIO::ImageInput& input, std::string& error) {
-    const std::string why = input.geterror();
-    error = path + ": is damaged: " + why.substr(0, why.find('\n'));
-    return false;
+// The first `channels` of a picture that is open, or as many as it has.
+template <class T>
+bool readTexels(const std::string& path, Source& source, int channels, OIIO::TypeDesc type, std::vector<T>& texels,
+                std::string& error) {
+    const OIIO::ImageSpec& spec = source.spec();
+    const int read = std::min(channels, spec.nchannels);
+    const auto step = OIIO::stride_t(channels * sizeof(T));
+    // As they are stored first, where all channels are alike: asked to convert them, the library takes 64 MB for any
+    // picture.
+    const bool alike = spec.channelformats.empty();
+    std::vector<uint8_t> stored(alike ? size_t(spec.width) * size_t(spec.height) * size_t(read) * spec.format.size()
+                                      : 0);
+    const bool whole = alike ? source.input->read_image(0, 0, 0, read, OIIO::TypeDesc::UNKNOWN, stored.data())
+                             : source.input->read_image(0, 0, 0, read, type, texels.data(), step);
+    if (!whole) return damaged(path, source.input->geterror(), error);
+    return !alike || OIIO::convert_image(read, spec.width, spec.height, 1, stored.data(), spec.format, OIIO::AutoStride,
+                                         OIIO::AutoStride, OIIO::AutoStride, texels.data(), type, step,
+                                         OIIO::AutoStride, OIIO::AutoStride);
 }
 
-// all: what can't be held of its channels is a mistake.
+// Red, green, blue and alpha; of a grey picture thrice its grey.
 template <class T>
-bool read(const std::string& path, int channels, OIIO::TypeDesc type, uint32_t& width, uint32_t& height,
-          std::vector<T>& texels, std::string& error, bool all = false) {
-    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, all ? kMaxFrameSide : kMaxSide, error);
-    if (!input) return false;
-    const OIIO::ImageSpec& spec = input->spec();
-    const int read = std::min(channels, spec.nchannels);
-    if (all && spec.nchannels > channels) {
-        error = path + ": has " + std::to_string(spec.nchannels) + " channels; " + std::to_string(channels) +
-                " at most can be compared";
-        return false;
-    }
+bool readRgba(const std::string& path, Source& source, OIIO::TypeDesc type, T most, uint32_t& width, uint32_t& height,
+              std::vector<T>& rgba, std::string& error) {
+    const OIIO::ImageSpec& spec = source.spec();
     width = uint32_t(spec.width);
     height = uint32_t(spec.height);
-    texels.assign(size_t(width) * height * channels, T(channels < 4 ? 0 : type.is_floating_point() ? 1 : 255));
-    if (!input->read_image(0, 0, 0, read, type, texels.data(), channels * sizeof(T)))
-        return damaged(path, *input, error);
-    const bool greyAlpha = read == 2 && spec.alpha_channel == 1;
-    if (channels == 4 && (read == 1 || greyAlpha))
-        for (size_t i = 0; i < texels.size(); i += 4) {
-            if (greyAlpha) texels[i + 3] = texels[i + 1];
-            texels[i + 1] = texels[i + 2] = texels[i];
+    rgba.assign(size_t(width) * height * 4, most);
+    if (!readTexels(path, source, 4, type, rgba, error)) return false;
+    const bool greyAlpha = spec.nchannels == 2 && spec.alpha_channel == 1;
+    if (spec.nchannels == 1 || greyAlpha)
+        for (size_t i = 0; i < rgba.size(); i += 4) {
+            if (greyAlpha) rgba[i + 3] = rgba[i + 1];
+            rgba[i + 1] = rgba[i + 2] = rgba[i];
         }
     return true;
 }
@@ -106,122 +169,63 @@ float srgbOf(float linear) {
 }
 
 bool readGrey(const std::string& path, GreyPicture& out, std::string& error) {
-    if (!read(path, 1, OIIO::TypeDesc::FLOAT, out.width, out.height, out.texels, error)) return false;
-    return limit(path, out.texels, out.limited, error);
+    return guarded(path + ": can't be read: ", error, [&] {
+        const std::unique_ptr<Source> source = openPicture(path, kMaxSide, error);
+        if (!source) return false;
+        out.width = uint32_t(source->spec().width);
+        out.height = uint32_t(source->spec().height);
+        out.texels.assign(size_t(out.width) * out.height, 0);
+        return readTexels(path, *source, 1, OIIO::TypeDesc::FLOAT, out.texels, error) &&
+               limit(path, out.texels, out.limited, error);
+    });
 }
 
 bool readColours(const std::string& path, std::vector<GreyPicture>& channels, std::string& error) {
-    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, kMaxSide, error);
-    if (!input) return false;
-    const OIIO::ImageSpec& spec = input->spec();
-    const int count = spec.nchannels < 3 ? 1 : 3;
-    const size_t texels = size_t(spec.width) * size_t(spec.height);
-    std::vector<float> all(texels * size_t(count));
-    if (!input->read_image(0, 0, 0, count, OIIO::TypeDesc::FLOAT, all.data())) return damaged(path, *input, error);
-    uint64_t limited = 0;
-    if (!limit(path, all, limited, error)) return false;
-    if (storesIntegers(spec)) std::ranges::transform(all, all.begin(), linearOf);
-    channels.assign(3, {uint32_t(spec.width), uint32_t(spec.height), std::vector<float>(texels)});
-    channels[0].limited = limited;
-    for (size_t c = 0; c < 3; ++c)
-        for (size_t i = 0; i < texels; ++i) channels[c].texels[i] = all[i * size_t(count) + (count == 3 ? c : 0)];
-    return true;
+    return guarded(path + ": can't be read: ", error, [&] {
+        const std::unique_ptr<Source> source = openPicture(path, kMaxSide, error);
+        if (!source) return false;
+        const OIIO::ImageSpec& spec = source->spec();
+        const int count = spec.nchannels < 3 ? 1 : 3;
+        const size_t texels = size_t(spec.width) * size_t(spec.height);
+        std::vector<float> all(texels * size_t(count));
+        uint64_t limited = 0;
+        if (!readTexels(path, *source, count, OIIO::TypeDesc::FLOAT, all, error) || !limit(path, all, limited, error))
+            return false;
+        if (storesIntegers(spec)) std::ranges::transform(all, all.begin(), linearOf);
+        channels.assign(3, {uint32_t(spec.width), uint32_t(spec.height), std::vector<float>(texels)});
+        channels[0].limited = limited;
+        for (size_t c = 0; c < 3; ++c)
+            for (size_t i = 0; i < texels; ++i) channels[c].texels[i] = all[i * size_t(count) + (count == 3 ? c : 0)];
+        return true;
+    });
 }
 
 bool readShape(const std::string& path, PictureShape& out, std::string& error) {
-    const std::unique_ptr<OIIO::ImageInput> input = openPicture(path, kMaxSide, error);
-    if (!input) return false;
-    out = {uint32_t(input->spec().width), uint32_t(input->spec().height), uint32_t(input->spec().nchannels)};
-    return true;
+    return guarded(path + ": can't be read: ", error, [&] {
+        const std::unique_ptr<Source> source = openPicture(path, kMaxSide, error);
+        if (!source) return false;
+        const OIIO::ImageSpec& spec = source->spec();
+        out = {uint32_t(spec.width), uint32_t(spec.height), uint32_t(spec.nchannels)};
+        return true;
+    });
 }
 
 bool readFloats(const std::string& path, FloatPicture& out, std::string& error) {
-    return read(path, 4, OIIO::TypeDesc::FLOAT, out.width, out.height, out.rgba, error, true);
+    return guarded(path + ": can't be read: ", error, [&] {
+        const std::unique_ptr<Source> source = openPicture(path, kMaxFrameSide, error);
+        if (!source) return false;
+        if (const int channels = source->spec().nchannels; channels > 4)
+            return fail(path, "has " + std::to_string(channels) + " channels; 4 at most can be compared", error);
+        return readRgba(path, *source, OIIO::TypeDesc::FLOAT, 1.f, out.width, out.height, out.rgba, error);
+    });
 }
 
 bool readColour(const std::string& path, ColourPicture& out, std::string& error) {
-    return read(path, 4, OIIO::TypeDesc::UINT8, out.width, out.height, out.rgba, error);
-}
-
-namespace {
-
-using Channels = std::span<const GreyPicture>;
-
-// Rows y to end, channels beside each other.
-std::vector<float> rowsOf(Channels channels, uint32_t y, uint32_t end, bool srgb) {
-    const size_t first = size_t(y) * channels[0].width, count = size_t(end - y) * channels[0].width;
-    std::vector<float> rows(count * channels.size());
-    for (size_t i = 0; i < count; ++i)
-        for (size_t c = 0; c < channels.size(); ++c) {
-            const float texel = channels[c].texels[first + i];
-            rows[i * channels.size() + c] = srgb ? srgbOf(texel) : texel;
-        }
-    return rows;
-}
-
-bool writeRows(OIIO::ImageOutput& output, Channels channels, bool srgb, const std::function<bool(float)>& goOn) {
-    constexpr uint32_t kRows = 256;
-    const uint32_t height = channels[0].height;
-    for (uint32_t y = 0; y < height; y += kRows) {
-        if (goOn && !goOn(float(y) / float(height))) return false;
-        const uint32_t end = std::min(y + kRows, height);
-        if (!output.write_scanlines(int(y), int(end), 0, OIIO::TypeDesc::FLOAT, rowsOf(channels, y, end, srgb).data()))
-            return false;
-    }
-    return true;
-}
-
-bool writeChannels(const std::string& path, Channels channels, std::string& error,
-                   const std::function<bool(float)>& goOn) {
-    const bool floats = std::filesystem::path(path).extension() == ".exr";
-    // By way of memory: the picture library doesn't tell of a disk that is full. It outlives the output, which writes
-    // into it to its own end where it wasn't closed.
-    OIIO::Filesystem::IOVecOutput bytes;
-    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path);
-    OIIO::ImageSpec spec(int(channels[0].width), int(channels[0].height), int(channels.size()),
-                         floats ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT16);
-    spec["png:compressionLevel"] = 1;
-    spec["compression"] = "zips";
-    spec["DateTime"] = "1970:01:01 00:00:00";  // else EXR holds when it was written, and no two files are the same
-    if (channels.size() == 1) spec.channelnames = {"Y"};
-    const bool good = output && output->set_ioproxy(&bytes) && output->open(path, spec) &&
-                      writeRows(*output, channels, channels.size() > 1 && !floats, goOn) && output->close();
-    if (!good) {
-        error = path + ": can't be written: " + (output ? output->geterror() : OIIO::geterror());
-        return false;
-    }
-    errno = 0;
-    std::ofstream file(path, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(bytes.buffer().data()), std::streamsize(bytes.buffer().size()));
-    file.close();
-    if (!file) error = path + ": can't be written: " + systemReason();
-    return bool(file);
-}
-
-}  // namespace
-
-bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error,
-               const std::function<bool(float)>& goOn) {
-    return writeChannels(path, {&picture, 1}, error, goOn);
-}
-
-bool writeColours(const std::string& path, const std::vector<GreyPicture>& channels, std::string& error,
-                  const std::function<bool(float)>& goOn) {
-    return writeChannels(path, channels, error, goOn);
-}
-
-bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error) {
-    OIIO::Filesystem::IOVecOutput bytes;  // as in writeGrey
-    std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("png");
-    OIIO::ImageSpec spec(int(width), int(height), 3, OIIO::TypeDesc::UINT8);
-    spec["png:compressionLevel"] = 1;
-    const bool good = output && output->set_ioproxy(&bytes) && output->open(path, spec) &&
-                      output->write_image(OIIO::TypeDesc::UINT8, rgba, 4, OIIO::stride_t(width) * 4) && output->close();
-    if (!good) {
-        error = path + ": can't be written: " + (output ? output->geterror() : OIIO::geterror());
-        return false;
-    }
-    return writeText(path, {reinterpret_cast<const char*>(bytes.buffer().data()), bytes.buffer().size()}, error);
+    return guarded(path + ": can't be read: ", error, [&] {
+        const std::unique_ptr<Source> source = openPicture(path, kMaxSide, error);
+        return source &&
+               readRgba(path, *source, OIIO::TypeDesc::UINT8, uint8_t(255), out.width, out.height, out.rgba, error);
+    });
 }
 
 }  // namespace espalier::scene

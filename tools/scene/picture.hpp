@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,11 @@ struct FloatPicture {
     std::vector<float> rgba;  // rows top to bottom
 };
 
-// The first channel of a picture (of a grey one the only, of a coloured one red), limited to [0, 1]. `error` names file
-// and cause. Pictures of more than 8192 texels a side are refused.
+// PNG, JPEG and OpenEXR are read, told by their first bytes; other formats, damage, and more than 8192 texels a side
+// are refused, the latter before anything is decoded. `error` names file and cause; no exception leaves these
+// functions.
+
+// The first channel of a picture (of a grey one the only, of a coloured one red), limited to [0, 1].
 bool readGrey(const std::string& path, GreyPicture& out, std::string& error);
 // Red, green and blue (of a grey picture thrice its only channel), limited to [0, 1] and linear: whole numbers are
 // sRGB, floats are as they are. Else as readGrey.
@@ -33,21 +37,21 @@ bool readColours(const std::string& path, std::vector<GreyPicture>& channels, st
 // What readGrey would find, from the file's beginning.
 bool readShape(const std::string& path, PictureShape& out, std::string& error);
 bool readColour(const std::string& path, ColourPicture& out, std::string& error);
-// With all the precision that the file has; whole numbers as parts of their greatest.
+// Up to 16384 texels a side with all the precision that the file has; whole numbers as parts of their greatest.
 bool readFloats(const std::string& path, FloatPicture& out, std::string& error);
 
 // sRGB's curve: from linear, and to it.
 float srgbOf(float linear);
 float linearOf(float srgb);
 
-// Writes one channel: 16 bits as .png, floats as .exr. `goOn` is told now and then how much of it is encoded, 0 to 1;
-// when it returns false the picture isn't written.
-bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error,
-               const std::function<bool(float)>& goOn = {});
+// A picture's file in memory, of one channel, or of red, green and blue, linear and of one size: as .png with 16 bits,
+// colours as sRGB; as .exr with floats as they are. path: by its ending, and for `error`. `goOn` is told now and then
+// how much is encoded, 0 to 1; when it returns false nothing comes of it.
+bool encodeChannels(const std::string& path, std::span<const GreyPicture> channels, std::vector<uint8_t>& bytes,
+                    std::string& error, const std::function<bool(float)>& goOn = {});
 
-// Likewise red, green and blue, linear and of one size: sRGB as .png, as they are as .exr.
-bool writeColours(const std::string& path, const std::vector<GreyPicture>& channels, std::string& error,
-                  const std::function<bool(float)>& goOn = {});
+// Writes one channel so, as writeText does (text_file.hpp).
+bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error);
 
 // Writes a PNG as writeText does (text_file.hpp).
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error);

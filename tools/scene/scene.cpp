@@ -13,7 +13,6 @@
 #include "tools/scene/daylight.hpp"
 #include "tools/scene/json_tree.hpp"
 #include "tools/scene/layers.hpp"
-#include "tools/scene/named.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene_file.hpp"
 #include "tools/scene/scene_parts.hpp"
@@ -238,27 +237,6 @@ std::vector<ParamValue> changedParams(const EspContext* context, EspGrammar gram
         if (!std::equal(info.value, info.value + value.count, info.initial)) changed.push_back(value);
     }
     return changed;
-}
-
-namespace {
-constexpr const char* kViews[] = {"shaded", "charts", "normals", "lod", "layer", "depth", "overdraw"};
-constexpr const char* kWalks[] = {"intrinsic", "paper"};
-}  // namespace
-
-bool viewNamed(const std::string& name, EspView& out) {
-    return valueNamed(kViews, name, out);
-}
-
-const char* nameOf(EspView view) {
-    return size_t(view) < std::size(kViews) ? kViews[view] : "shaded";
-}
-
-bool walkNamed(const std::string& name, EspWalkMode& out) {
-    return valueNamed(kWalks, name, out);
-}
-
-const char* nameOf(EspWalkMode walk) {
-    return kWalks[walk];
 }
 
 EspCamera turned(const EspCamera& camera, float radians) {

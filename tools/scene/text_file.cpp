@@ -1,13 +1,12 @@
 // Files whole, in and out. Writing goes through a neighbour that is renamed, so that nothing is ever half-written.
 #include "tools/scene/text_file.hpp"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+
+#include "tools/scene/unfinished.hpp"
 
 namespace espalier::scene {
 namespace {
@@ -18,17 +17,13 @@ std::string systemReason() {
     return std::strerror(errno ? errno : EIO);
 }
 
-bool put(const fs::path& file, std::string_view text) {
+// To what isn't replaced.
+bool put(const fs::path& device, std::string_view text) {
     errno = 0;
-    std::ofstream out(file, std::ios::binary);
+    std::ofstream out(device, std::ios::binary);
     out.write(text.data(), std::streamsize(text.size()));
     out.close();
     return bool(out);
-}
-
-// A name beside `path` that nobody else uses.
-fs::path neighbourOf(const fs::path& path) {
-    return path.parent_path() / ("." + std::to_string(getpid()) + "-" + path.filename().string());
 }
 
 // No file that could be replaced: renaming over /dev/null would be a disaster.
@@ -57,22 +52,13 @@ fs::path behindLinks(const fs::path& path) {
 }
 
 bool writeText(const std::string& path, std::string_view text, std::string& error) {
-    const auto fail = [&](const std::string& why) {
-        error = path + ": can't be written: " + why;
-        return false;
-    };
-    if (isSpecial(path)) return put(path, text) || fail(systemReason());
-    const fs::path target = behindLinks(path), neighbour = neighbourOf(target);
-    std::error_code code, ignored;
-    if (!put(neighbour, text)) {
-        const std::string why = systemReason();
-        fs::remove(neighbour, ignored);
-        return fail(why);
+    if (!isSpecial(path)) {
+        Unfinished file(path);
+        return file.write(text, error) && file.take(error);
     }
-    fs::rename(neighbour, target, code);
-    if (!code) return true;
-    fs::remove(neighbour, ignored);
-    return fail(code.message());
+    const bool good = put(path, text);
+    if (!good) error = path + ": can't be written: " + systemReason();
+    return good;
 }
 
 bool refused(const std::string& path, std::string& error) {
@@ -85,18 +71,26 @@ bool refused(const std::string& path, std::string& error) {
     return true;
 }
 
-bool readText(const std::string& path, std::string& text, std::string& error) {
+bool readText(const std::string& path, std::string& text, std::string& error, uint64_t most) {
+    const auto fail = [&](const std::string& why) {
+        error = path + why;
+        return false;
+    };
     if (refused(path, error)) return false;
     errno = 0;
     std::ifstream file(path, std::ios::binary);
-    std::ostringstream all;
-    if (file) all << file.rdbuf();
-    if (!file) {
-        error = path + ": can't be read: " + systemReason();
-        return false;
+    if (!file) return fail(": can't be read: " + systemReason());
+    // By pieces: files that grow, and those of /proc, have no size to trust.
+    std::error_code unknown;
+    const uint64_t said = fs::file_size(path, unknown);
+    text.clear();
+    if (!unknown && said <= most) text.reserve(size_t(said));
+    for (char piece[1 << 14]; file.good();) {
+        file.read(piece, sizeof piece);
+        text.append(piece, size_t(file.gcount()));
+        if (text.size() > most) return fail(" has more than " + std::to_string(most >> 20) + " MiB");
     }
-    text = all.str();
-    return true;
+    return !file.bad() || fail(": can't be read: " + systemReason());
 }
 
 }  // namespace espalier::scene

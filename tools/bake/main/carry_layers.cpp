@@ -1,7 +1,6 @@
 // In: PNG files painted over an earlier surface, and the new one. Out: PNG files for the new one.
 #include "tools/bake/main/carry_layers.hpp"
 
-#include <stb_image.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 
 #include "runtime/core/file.hpp"
 #include "runtime/surface/carry.hpp"
@@ -19,7 +17,7 @@
 namespace espalier {
 namespace {
 
-constexpr int kMostSide = 8192;
+constexpr uint32_t kMostSide = 8192;
 
 void append32(std::vector<std::byte>& out, uint32_t value) {
     for (int shift = 24; shift >= 0; shift -= 8) out.push_back(std::byte(value >> shift & 255u));
@@ -67,21 +65,7 @@ std::vector<std::byte> encodePng(const UvPicture& layer) {
 Result<UvPicture> readLayer(const std::string& path) {
     auto bytes = readFile(path);
     if (!bytes) return std::move(bytes.failure());
-    const auto* data = reinterpret_cast<const stbi_uc*>(bytes->data());
-    int width = 0, height = 0, channels = 0;
-    if (!isPicture(*bytes)) return Failure(path, "is no picture that can be read (PNG can)");
-    if (!stbi_info_from_memory(data, int(bytes->size()), &width, &height, &channels))
-        return Failure(path, std::string("is no picture that can be read (PNG can): ") + stbi_failure_reason());
-    if (width > kMostSide || height > kMostSide)
-        return Failure(path, "has " + std::to_string(width) + " × " + std::to_string(height) + " texels; " +
-                                 std::to_string(kMostSide) + " a side is the limit");
-    const std::unique_ptr<stbi_us, void (*)(void*)> grey(
-        stbi_load_16_from_memory(data, int(bytes->size()), &width, &height, &channels, 1), stbi_image_free);
-    if (!grey) return Failure(path, std::string("cannot be read: ") + stbi_failure_reason());
-    UvPicture layer{uint32_t(width), uint32_t(height), {}};
-    layer.texels.assign(grey.get(), grey.get() + size_t(width) * size_t(height));
-    for (float& value : layer.texels) value /= 65535.0f;
-    return layer;
+    return decodeGrey(*bytes, path, kMostSide);
 }
 
 Result<std::vector<CarriedFile>> carryLayers(const CarryArguments& arguments, const SurfaceData& to,

@@ -3,8 +3,6 @@
 //   .cache/NAME.inputs   the files that the model NAME (hashed, with the options) was last made of
 //   .cache/KEY.json      the row of the report; KEY also covers those files' bytes
 //   .cache/KEY.glb       the surface, of which the one in the output is a link (or a copy, across file systems)
-#include <unistd.h>
-
 #include <cinttypes>
 #include <filesystem>
 #include <sstream>
@@ -88,9 +86,10 @@ Status Cache::store(const Item& item, const Row& row, const std::vector<InputFil
         if (!placed) return placed;
     }
     if (!canBeNoted) return Done{};  // so it is baked each time
-    Status written = writeFile(entry + ".json", kept.dump(-1, ' ', false, Row::error_handler_t::replace));
+    Status written =
+        writeFile(entry + ".json", kept.dump(-1, ' ', false, Row::error_handler_t::replace), Links::replace);
     if (!written) return written;
-    return writeFile(notePath(item), std::string_view(note));
+    return writeFile(notePath(item), std::string_view(note), Links::replace);
 }
 
 Status Cache::place(const std::string& entry, const Item& item) {
@@ -98,9 +97,9 @@ Status Cache::place(const std::string& entry, const Item& item) {
     fs::path from = entry + ".glb", to = fs::path(options_.out) / item.surface;
     if (fs::equivalent(from, to, error)) return Done{};
     fs::create_directories(to.parent_path(), error);
-    fs::path beside = to.string() + "." + std::to_string(::getpid()) + ".partial";
+    const fs::path beside = neighbourOf(to);
     fs::create_hard_link(from, beside, error);
-    if (error) fs::copy_file(from, beside, fs::copy_options::overwrite_existing, error);
+    if (error) fs::copy_file(from, beside, fs::copy_options::none, error);
     if (!error) fs::rename(beside, to, error);
     if (!error) return Done{};
     std::error_code ignored;

@@ -146,9 +146,7 @@ int runTown(Arguments& arguments) {
     return baked ? 0 : fail(baked.failure());
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int bakeAsAsked(int argc, char** argv) {
     CLI::App app("Bakes a model, or all models of a folder, into surfaces that plants can grow on; or a town.",
                  "espalier-bake");
     Arguments arguments;
@@ -167,4 +165,10 @@ int main(int argc, char** argv) {
     } catch (const std::exception& e) {  // of the file system, say
         return fail(Failure(arguments.model, e.what()));
     }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return runProgram("espalier-bake", [&] { return bakeAsAsked(argc, argv); });
 }
