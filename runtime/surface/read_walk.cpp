@@ -29,7 +29,7 @@ void readArray(Container& file, const json& object, const char* key, const std::
 // Surfaces near their models' origin have none.
 void readOrigin(const json& walk, const std::string& place, glm::dvec3& out) {
     if (!walk.contains("origin")) return;
-    const json& origin = array(walk, "origin", place, 3);
+    const json& origin = array(walk, "origin", place.c_str(), 3);
     for (size_t k = 0; k < 3; ++k) {
         if (k >= origin.size() || !origin[k].is_number()) fail(place, "origin is not three numbers");
         out[int(k)] = origin[k].get<double>();
