@@ -39,16 +39,10 @@ Result<BoundGrowth> BoundGrowth::create(Device& device, const Terminals& termina
     BoundGrowth out;
     out.device_ = &device;
     out.terminals_ = &terminals;
-    const auto fetching = [](bool fetches, bool bitwise) {
-        return ProgramOptions{.exact = bitwise, .constants = {{3, fetches ? 0u : 1u}}};
-    };
     Status programs =
-        makeCompute(device, {{out.bindSpans_[0], "emit/bind_spans.comp", fetching(false, true)},
-                             {out.bindSpans_[1], "emit/bind_spans.comp", fetching(true, true)},
-                             {out.bindLeaves_[0], "emit/bind_leaves.comp", fetching(false, true)},
-                             {out.bindLeaves_[1], "emit/bind_leaves.comp", fetching(true, true)},
-                             {out.bindTouch_[0], "emit/bind_touch.comp", fetching(false, false)},
-                             {out.bindTouch_[1], "emit/bind_touch.comp", fetching(true, false)},
+        makeCompute(device, {{out.bindSpans_, "emit/bind_spans.comp", exactly()},
+                             {out.bindLeaves_, "emit/bind_leaves.comp", exactly()},
+                             {out.bindTouch_, "emit/bind_touch.comp"},
                              {out.bindStretches_, "emit/bind_stretches.comp", exactly()},
                              {out.bindKeep_, "emit/bind_keep.comp", {.constants = {{5, cellLanes(device)}}}},
                              {out.bindCount_, "emit/bind_count.comp", exactly()},
@@ -57,8 +51,7 @@ Result<BoundGrowth> BoundGrowth::create(Device& device, const Terminals& termina
                              {out.bindSort_, "emit/bind_sort.comp", {.constants = {{5, sortLanes(device)}}}}});
     if (!programs) return programs.failure();
     if (Status s = allDone({makeRoom(device, out.cells_, "emit cells", (kAllCells + 1) * sizeof(EmitCell)),
-                            makeRoom(device, out.bins_, "emit bins", kAllCells * kCellBins * 4ull),
-                            makeRoom(device, out.noTexels_, "emit no texels", 16)});
+                            makeRoom(device, out.bins_, "emit bins", kAllCells * kCellBins * 4ull)});
         !s)
         return s.failure();
     for (Buffer& given : out.inputs_)
@@ -106,7 +99,6 @@ Status BoundGrowth::makeOrder(Buffer& order, const Held& held) {
 bool BoundGrowth::trim(const GrowthView& growth) {
     constexpr uint64_t kFarMore = 3;
     spareOrder_ = {};
-    for (TexelView* view : {&nodeRecords_, &chunkRecords_, &leafRecords_, &touchedRecords_}) *view = {};
     const HeldRoom room = roomFor(growth, std::min(growth.leafCount, kMostLeaves));
     if (held_.numbers() / kFarMore <= room.spans + room.leaves) return false;
     forget();
@@ -213,7 +205,7 @@ Status BoundGrowth::bind(Commands& commands, const EmitInputs& inputs, const Til
     const bool native = inputs.native && sharesMemory(*device_, cells_) && device_->finished(usedBy_);
     if (native) {
         bindNative(given, terminals_->kernelTable(), watch.watched());
-    } else if (Status s = bindByKernels(commands, growth, watch, given); !s) {
+    } else if (Status s = bindByKernels(commands, watch, given); !s) {
         return s;
     }
     source_ = wanted;

@@ -84,8 +84,7 @@ class BoundGrowth {
     bool staysBound(const Source& wanted, const GrowthView& growth) const;
     BindInputs bindInputs(const EmitInputs& inputs, const Source& wanted) const;
     // bound_growth_kernels.cpp
-    Status viewRecords(const GrowthView& growth, uint32_t nodesBefore);
-    Status bindByKernels(Commands& commands, const GrowthView& growth, const TileWatch& watch, const BindInputs& given);
+    Status bindByKernels(Commands& commands, const TileWatch& watch, const BindInputs& given);
     void dispatchBinding(Pass& pass, const TileWatch& watch, const BindInputs& given, const Buffer& in);
     // bound_growth_carry.cpp
     bool nearlyCrowded(const EmitState& counted) const;
@@ -95,8 +94,7 @@ class BoundGrowth {
 
     Device* device_ = nullptr;
     const Terminals* terminals_ = nullptr;
-    std::array<Program, 2> bindTouch_, bindSpans_, bindLeaves_;  // [1] fetches records as texels
-    Program bindStretches_, bindKeep_, bindCount_, bindCells_, bindOrder_, bindSort_;
+    Program bindTouch_, bindSpans_, bindLeaves_, bindStretches_, bindKeep_, bindCount_, bindCells_, bindOrder_, bindSort_;
     struct Carrying {
         Program spans, leaves, cells;
     };
@@ -107,13 +105,10 @@ class BoundGrowth {
     Buffer cells_, bins_;
     Buffer flags_, list_, notes_;
     TexelView noteTexels_;  // of these; after them
-    Buffer noTexels_;
-    TexelView nodeRecords_, chunkRecords_, leafRecords_, touchedRecords_;
     EmitGrid grid_{};
     Source source_;
     uint64_t boundBy_ = 0, usedBy_ = 0;  // the recordings that bound it and that looked at it last
     uint64_t version_ = 1, wholeBindings_ = 0, carries_ = 0;
-    bool fetches_ = false, fetchesTouched_ = false;
     uint32_t overflow_ = 0, inputSlot_ = 0;
 };
 

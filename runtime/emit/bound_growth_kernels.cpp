@@ -8,37 +8,7 @@
 
 namespace espalier {
 
-// Records as texels, which software devices read faster than by address.
-Status BoundGrowth::viewRecords(const GrowthView& growth, uint32_t nodesBefore) {
-    const struct {
-        TexelView& view;
-        const Buffer* buffer;
-    } rows[] = {
-        {nodeRecords_, growth.nodeBuffer}, {chunkRecords_, growth.chunkBuffer}, {leafRecords_, growth.leafBuffer}};
-    const uint64_t most = 16ull * device_->info().limits.maxTexelBufferElements;
-    fetches_ = device_->info().cpu;
-    for (const auto& row : rows)
-        fetches_ = fetches_ && row.buffer && row.buffer->size() >= 16 && row.buffer->size() <= most;
-    for (const auto& row : rows) {
-        row.view = {};
-        const Buffer& buffer = fetches_ ? *row.buffer : noTexels_;
-        if (Status made = assign(row.view, TexelView::create(*device_, buffer, VK_FORMAT_R32G32B32A32_UINT)); !made)
-            return made.failure();
-    }
-    // Four numbers a texel.
-    const Buffer* touched = growth.touched;
-    fetchesTouched_ = fetches_ && touched && touched->size() / 16 * 4 >= nodesBefore && touched->size() <= most;
-    touchedRecords_ = {};
-    Result<TexelView> made =
-        TexelView::create(*device_, fetchesTouched_ ? *touched : noTexels_, VK_FORMAT_R32G32B32A32_UINT);
-    if (!made) return made.failure();
-    touchedRecords_ = std::move(*made);
-    return Done{};
-}
-
-Status BoundGrowth::bindByKernels(Commands& commands, const GrowthView& growth, const TileWatch& watch,
-                                  const BindInputs& given) {
-    if (Status s = viewRecords(growth, given.nodesBefore); !s) return s;
+Status BoundGrowth::bindByKernels(Commands& commands, const TileWatch& watch, const BindInputs& given) {
     const Buffer& in = inputs_[inputSlot_++ % inputs_.size()];
     Pass pass(commands, "bind");
     commands.barrier(Use::compute | Use::vertex, Use::transfer | Use::compute);
@@ -61,21 +31,18 @@ void BoundGrowth::dispatchBinding(Pass& pass, const TileWatch& watch, const Bind
     const uint32_t nodes = given.nodeCount, leaves = given.leafCount;
     const Buffer& table = terminals_->tableBuffer();
     if (partly) {
-        pass.dispatchItems(bindTouch_[fetchesTouched_], std::max(nodes / 4 + 1, kAllCells), {}, {touchedRecords_, in});
+        pass.dispatchItems(bindTouch_, std::max(nodes / 4 + 1, kAllCells), {}, {in});
         pass.barrier(Use::compute, Use::compute);
     }
     // Kernels go through what there is to do in strides: how much that is, a part's are the first to know.
     const auto groupsFor = [&](uint32_t items) {
         return std::array<uint32_t, 3>{partly ? 64u : std::min(items / 64 + 1, 65535u), 1, 1};
     };
-    // The lookup knows branches too, which nobody asks for here.
-    pass.dispatch(bindSpans_[fetches_], groupsFor(nodes), {},
-                  {table, nodeRecords_, chunkRecords_, chunkRecords_, watch.record(), in});
+    pass.dispatch(bindSpans_, groupsFor(nodes), {}, {table, watch.record(), in});
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(bindStretches_, groupsFor(nodes), {}, {table, held_.spanTexels, in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(bindLeaves_[fetches_], groupsFor(leaves), {},
-                  {table, leafRecords_, held_.spanTexels, watch.record(), in});
+    pass.dispatch(bindLeaves_, groupsFor(leaves), {}, {table, held_.spanTexels, watch.record(), in});
     pass.barrier(Use::compute, Use::compute);
     if (partly) {
         pass.dispatchItems(bindKeep_, kAllCells * cellLanes(*device_), {}, {in});

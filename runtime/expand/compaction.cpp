@@ -30,7 +30,6 @@ bool GpuGrowth::gappyLinks() const {
 }
 
 Status GpuGrowth::compact(const GrowthInputs& inputs) {
-    dropViews();
     view_.moved = {};  // what it says is written over, and may get no room again
     if (Status ok = ensure(nodesWent_, "growth where nodes went", capacityOf<Node>(*view_.nodeBuffer) * 4ull); !ok)
         return ok;
@@ -179,7 +178,7 @@ Status GpuGrowth::makeCopyRoom() {
          ensure(links.branches, "growth branches",
                 std::max<uint64_t>(linksNow.branches.size(), room_.branches * uint64_t(sizeof(BranchRecord)))),
          kernels_.make({GrowthKernel::compactPlaces, GrowthKernel::compactNodes, GrowthKernel::compactLeaves},
-                       access_)});
+                       tablesByAddress_)});
 }
 
 CompactEnv GpuGrowth::compactEnvironment() const {

@@ -86,9 +86,6 @@ class GpuGrowth final : public Growth {
     // Both kinds: growth_set_up.cpp.
     Status ensureChains(const Plants& plants);
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
-    Status viewSurfaces(const GrowthInputs& inputs);
-    Status viewRecords(const GrowthInputs& inputs, const Plants& plants, const Links& links, const Links& before);
-    void dropViews();  // no view outlives its buffer
     Status makeTables(const GrowthInputs& inputs);
     Status makeKernels(const GrowthInputs& inputs);
     Status makeQueues(const GrowthInputs& inputs);
@@ -100,8 +97,7 @@ class GpuGrowth final : public Growth {
     Status uploadStatus(Commands& commands, const GrowthInputs& inputs, GrowStatus status);
     ExpandEnv environment(const GrowthInputs& inputs, const Plants& plants, const Links& links);
     // Waves [first, last) of `march`.
-    void recordWaves(Pass& pass, const Program& march, bool fetching, const ExpandEnv& env, uint32_t first,
-                     uint32_t last);
+    void recordWaves(Pass& pass, const Program& march, const ExpandEnv& env, uint32_t first, uint32_t last);
     Outcome readOutcome(uint32_t last);
     static Origin originOf(const GrowthInputs& inputs);
     // What lies in front is drawn from now on. all: nodes aren't where they were.
@@ -117,12 +113,12 @@ class GpuGrowth final : public Growth {
         if (limits.tangents == TangentMode::paper) return kDensityCells + 3 * (room_.nodes + frozen);
         return limits.leafDensityCap > 0 ? kDensityCells : 1;
     }
-    const Program& kernel(GrowthKernel kernel) const { return kernels_.get(kernel, access_); }
+    const Program& kernel(GrowthKernel kernel) const { return kernels_.get(kernel, tablesByAddress_); }
     static GrowthKernel marchOf(const GrowthLimits& limits) {
         return limits.walk == WalkMode::paper ? GrowthKernel::marchPaper : GrowthKernel::march;
     }
     // The packed tables for kernels' uniform binding: something of its size when they are read by address.
-    const Buffer& uniformTables() const { return access_.tablesByAddress ? noTables_ : tables_; }
+    const Buffer& uniformTables() const { return tablesByAddress_ ? noTables_ : tables_; }
 
     // All anew: growth.cpp.
     Status growAll(const GrowthInputs& inputs);
@@ -196,11 +192,10 @@ class GpuGrowth final : public Growth {
     const GrowthRoom least_;     // to begin with
     GrowthRoom room_;            // of a full growth, beside frozen plants
     uint32_t likelyWaves_ = 24;  // recorded in the first submission
-    GrowthAccess access_;
-    TexelView surfaceView_, nodeView_, chunkView_, branchView_, leafView_, chunkViewBefore_;
+    bool tablesByAddress_ = false;  // else from a uniform buffer, which holds kUniformTableWords
     DoubleBuffered<Plants> plants_;
     DoubleBuffered<Links> links_;
-    Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, noTexels_, density_, readback_;
+    Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, density_, readback_;
     Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_, touched_, nodesWent_, leavesWent_;
     bool touchedIsNew_ = false;  // and holds nothing yet
     bool chained_ = false;       // leaves on the nodes that are drawn are chained

@@ -62,19 +62,14 @@ Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, c
                     uploadTables(commands, inputs, !runsNative(inputs))});
 }
 
-void GpuGrowth::recordWaves(Pass& pass, const Program& march, bool fetching, const ExpandEnv& base, uint32_t first,
-                            uint32_t last) {
+void GpuGrowth::recordWaves(Pass& pass, const Program& march, const ExpandEnv& base, uint32_t first, uint32_t last) {
     ExpandEnv env = base;
     for (uint32_t w = first; w < last; ++w) {
         env.wave = w;
         env.items = addressOf<WorkItemBuf>(items_[w & 1]);
         env.nextItems = addressOf<WorkItemBuf>(items_[(w + 1) & 1]);
         const uint64_t groups = w * sizeof(Wave) + offsetof(Wave, groups);
-        if (fetching) {
-            pass.dispatchIndirect(march, waves_, groups, env, {uniformTables(), surfaceView_});
-        } else {
-            pass.dispatchIndirect(march, waves_, groups, env, {uniformTables()});
-        }
+        pass.dispatchIndirect(march, waves_, groups, env, {uniformTables()});
         pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect);
     }
 }
@@ -82,10 +77,9 @@ void GpuGrowth::recordWaves(Pass& pass, const Program& march, bool fetching, con
 // Waves [first, last), then the terminal passes, which do nothing should wave `last` not be empty.
 Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t first, uint32_t last,
                          const GrowthLimits& limits) {
-    const bool paper = limits.walk == WalkMode::paper;
     {
         Pass pass(commands, "expand march");
-        recordWaves(pass, kernel(marchOf(limits)), !paper, base, first, last);
+        recordWaves(pass, kernel(marchOf(limits)), base, first, last);
     }
     ExpandEnv env = base;
     env.wave = last;
@@ -114,18 +108,17 @@ void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthL
         }
         if (capped) {
             env.phase = kTerminalsCount;
-            pass.dispatchIndirect(terminals, status_, kNodes, env,
-                                  {uniformTables(), nodeView_, chunkView_, branchView_});
+            pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables()});
             pass.barrier(Use::compute, Use::compute);
         }
         env.phase = kTerminalsWrite;
-        pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables(), nodeView_, chunkView_, branchView_});
+        pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables()});
         pass.barrier(Use::compute, Use::compute);
     }
     Pass pass(commands, "expand fit");
     pass.dispatchIndirect(kernel(GrowthKernel::branches), status_, kBranches, env);
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchIndirect(kernel(GrowthKernel::fit), status_, kNodes, env, {nodeView_, chunkView_, branchView_});
+    pass.dispatchIndirect(kernel(GrowthKernel::fit), status_, kNodes, env);
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 
@@ -232,7 +225,6 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
             if (!closed) return closed;
             done = regrowWithFrozen(inputs);
         }
-        dropViews();
         if (!done) return done.failure();
         if (*done == Regrown::done) return Done{};
     }
@@ -259,7 +251,6 @@ Status GpuGrowth::growWhole(const GrowthInputs& inputs) {
     uint32_t overflow = 0, enlarged = 0;
     for (uint32_t i = 0; fits && i < kMostAttempts; ++i) {
         Result<Outcome> outcome = attempt(inputs, frozen, cut);
-        dropViews();
         if (!outcome) return outcome.failure();
         verdict = judge(withoutFrozen(outcome->status, frozen.records), outcome->waves, limits, room_, cut);
         if (verdict == Verdict::impossible || verdict == Verdict::tooManyLeaves) break;

@@ -37,14 +37,9 @@ struct GrowthLimits {
 struct GrowthInputs {
     SurfaceBuf surfaces{};  // indexed by surface instance
     uint32_t surfaceCount = 0;
-    // The one buffer that all arrays of all surfaces lie in, where there is one (GpuSurface::data): software devices
-    // then read it as texels, which is faster. Null: by address.
-    const Buffer* surfaceData = nullptr;
     // True: on a software device whose addresses are the process's own, growth runs as native code on its cores
     // (native_growth.hpp), with the same result. False: as shaders there too.
     bool native = true;
-    // False: a software device too reads surfaces and records by address only, as all other devices do.
-    bool fetch = true;
     LayerBuf layers{};  // surfaceCount * kMaxLayers
     std::span<const RuleMapRef> grammars;
     // One a grammar, metres, or empty: shapes of this width grow on the coarsest level whose texels are no wider.
@@ -80,8 +75,7 @@ struct GrowthView {
     BranchBuf branches{};
     LeafBuf leaves{};
     uint32_t nodeCount = 0, chunkCount = 0, branchCount = 0, leafCount = 0;
-    // The whole buffers that these lie in, from their beginnings on, where they can be read as texels; null: they
-    // can't.
+    // The whole buffers that these lie in, from their beginnings on. Null: nobody knows how large they are.
     const Buffer *nodeBuffer = nullptr, *chunkBuffer = nullptr, *leafBuffer = nullptr;
     uint64_t revision = 0;  // grows with every grow() that changed anything
     // Growths have numbers. Those after `renewed` only added nodes and leaves at the end, and wrote the nodes (and took

@@ -9,7 +9,7 @@ namespace espalier {
 namespace {
 
 // Numbers of specialisation constants, as bits.
-constexpr uint32_t kTables = 1u << 0, kSurfaces = 1u << 1, kFeatureSet = 1u << 2, kRecords = 1u << 3;
+constexpr uint32_t kTables = 1u << 0, kFeatureSet = 1u << 2;
 
 struct Row {
     GrowthKernel kernel;
@@ -18,20 +18,20 @@ struct Row {
 };
 constexpr Row kRows[] = {
     {GrowthKernel::tables, "expand/tables.comp", 0},
-    {GrowthKernel::march, "expand/march.comp", kTables | kSurfaces | kFeatureSet},
+    {GrowthKernel::march, "expand/march.comp", kTables | kFeatureSet},
     {GrowthKernel::marchPaper, "expand/march_paper.comp", kTables | kFeatureSet},
-    {GrowthKernel::terminals, "expand/terminals.comp", kTables | kFeatureSet | kRecords},
+    {GrowthKernel::terminals, "expand/terminals.comp", kTables | kFeatureSet},
     {GrowthKernel::branches, "expand/branches.comp", 0},
-    {GrowthKernel::fit, "expand/fit.comp", kRecords},
-    {GrowthKernel::find, "expand/again_find.comp", kRecords},
+    {GrowthKernel::fit, "expand/fit.comp", 0},
+    {GrowthKernel::find, "expand/again_find.comp", 0},
     {GrowthKernel::start, "expand/again_start.comp", 0},
-    {GrowthKernel::marchAgain, "expand/march_again.comp", kTables | kSurfaces | kFeatureSet},
+    {GrowthKernel::marchAgain, "expand/march_again.comp", kTables | kFeatureSet},
     {GrowthKernel::settle, "expand/again_settle.comp", 0},
     {GrowthKernel::work, "expand/again_work.comp", 0},
-    {GrowthKernel::terminalsAgain, "expand/terminals_again.comp", kTables | kFeatureSet | kRecords},
-    {GrowthKernel::apply, "expand/again_apply.comp", kRecords},
+    {GrowthKernel::terminalsAgain, "expand/terminals_again.comp", kTables | kFeatureSet},
+    {GrowthKernel::apply, "expand/again_apply.comp", 0},
     {GrowthKernel::thickness, "expand/again_thickness.comp", 0},
-    {GrowthKernel::fitAgain, "expand/again_fit.comp", kRecords},
+    {GrowthKernel::fitAgain, "expand/again_fit.comp", 0},
     {GrowthKernel::compactPlaces, "expand/compact_places.comp", 0},
     {GrowthKernel::compactNodes, "expand/compact_nodes.comp", 0},
     {GrowthKernel::compactLeaves, "expand/compact_leaves.comp", 0},
@@ -56,30 +56,26 @@ void GrowthKernels::use(uint32_t features) {
     std::erase_if(programs_, [](const auto& made) { return (rowOf(made.first.first).constants & kFeatureSet) != 0; });
 }
 
-GrowthKernels::Key GrowthKernels::keyOf(GrowthKernel kernel, const GrowthAccess& access) {
-    const uint32_t all = (access.tablesByAddress ? kTables : 0) | (access.surfacesAsTexels ? kSurfaces : 0) |
-                         (access.recordsAsTexels ? kRecords : 0);
-    return {kernel, all & rowOf(kernel).constants};
+GrowthKernels::Key GrowthKernels::keyOf(GrowthKernel kernel, bool tablesByAddress) {
+    return {kernel, tablesByAddress && (rowOf(kernel).constants & kTables) != 0};
 }
 
-Status GrowthKernels::make(std::initializer_list<GrowthKernel> kernels, const GrowthAccess& access) {
+Status GrowthKernels::make(std::initializer_list<GrowthKernel> kernels, bool tablesByAddress) {
     for (const GrowthKernel kernel : kernels) {
-        Program& program = programs_[keyOf(kernel, access)];
+        Program& program = programs_[keyOf(kernel, tablesByAddress)];
         if (program) continue;
         const Row& row = rowOf(kernel);
         std::vector<SpecConstant> constants;
-        if (row.constants & kTables) constants.push_back({0, access.tablesByAddress ? 1u : 0u});
-        if (row.constants & kSurfaces) constants.push_back({1, access.surfacesAsTexels ? 0u : 1u});
+        if (row.constants & kTables) constants.push_back({0, tablesByAddress ? 1u : 0u});
         if (row.constants & kFeatureSet) constants.push_back({2, features_});
-        if (row.constants & kRecords) constants.push_back({3, access.recordsAsTexels ? 0u : 1u});
         Status made = makeCompute(device_, {{program, row.shader, exactly(std::move(constants)), kExpandGroup}});
         if (!made) return made;
     }
     return Done{};
 }
 
-const Program& GrowthKernels::get(GrowthKernel kernel, const GrowthAccess& access) const {
-    const auto made = programs_.find(keyOf(kernel, access));
+const Program& GrowthKernels::get(GrowthKernel kernel, bool tablesByAddress) const {
+    const auto made = programs_.find(keyOf(kernel, tablesByAddress));
     require(made != programs_.end() && made->second, "a kernel of growth is made before it is used");
     return made->second;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
-// The kernels of growth. Each is made when it is first asked for, specialised to how it reads what growth needs and to
-// what a scene's grammars use; what has been made stays.
+// The kernels of growth. Each is made when it is first asked for, specialised to how it reads tables and to what a
+// scene's grammars use; what has been made stays.
 
 #include <initializer_list>
 #include <map>
@@ -34,26 +34,20 @@ enum class GrowthKernel : uint32_t {
     compactLeaves,
 };
 
-// How kernels read what growth needs, where they have a choice.
-struct GrowthAccess {
-    bool tablesByAddress = false;   // else from a uniform buffer, which holds kUniformTableWords
-    bool surfacesAsTexels = false;  // else by address
-    bool recordsAsTexels = false;   // else by address
-};
-
 class GrowthKernels {
   public:
     explicit GrowthKernels(Device& device) : device_(device) {}
 
     // What grammars use from now on (kFeature...), beside all that they ever did: so kernels settle.
     void use(uint32_t features);
-    Status make(std::initializer_list<GrowthKernel> kernels, const GrowthAccess& access);
+    // tablesByAddress: kernels read tables so, else from a uniform buffer.
+    Status make(std::initializer_list<GrowthKernel> kernels, bool tablesByAddress);
     // One that has been made.
-    const Program& get(GrowthKernel kernel, const GrowthAccess& access) const;
+    const Program& get(GrowthKernel kernel, bool tablesByAddress) const;
 
   private:
-    using Key = std::pair<GrowthKernel, uint32_t>;  // the latter: by what it is specialised, bits
-    static Key keyOf(GrowthKernel kernel, const GrowthAccess& access);
+    using Key = std::pair<GrowthKernel, bool>;  // the latter: reads tables by address
+    static Key keyOf(GrowthKernel kernel, bool tablesByAddress);
 
     Device& device_;
     uint32_t features_ = 0;

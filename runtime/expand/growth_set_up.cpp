@@ -9,7 +9,7 @@
 namespace espalier {
 
 Status GpuGrowth::setUp() {
-    return kernels_.make({GrowthKernel::tables, GrowthKernel::branches}, access_);
+    return kernels_.make({GrowthKernel::tables, GrowthKernel::branches}, tablesByAddress_);
 }
 
 Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
@@ -25,76 +25,29 @@ Status GpuGrowth::ensureChains(const Plants& plants) {
     return ensure(nextLeaves_, "growth next leaves", leaves);
 }
 
-// Binds all surfaces as texels, where that is possible and of use. The binding needs a view in any case.
-Status GpuGrowth::viewSurfaces(const GrowthInputs& inputs) {
-    const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
-    const Buffer* data = inputs.surfaceData;
-    access_.surfacesAsTexels = inputs.fetch && device_.info().cpu && data && data->size() >= 16 && data->size() <= most;
-    surfaceView_ = {};
-    if (Status made = ensure(noTexels_, "growth no texels", 16); !made) return made;
-    Result<TexelView> view =
-        TexelView::create(device_, access_.surfacesAsTexels ? *data : noTexels_, VK_FORMAT_R32G32B32A32_UINT);
-    if (!view) return view.failure();
-    surfaceView_ = std::move(*view);
-    return Done{};
-}
-
-// The same of the records that the passes after the march read.
-Status GpuGrowth::viewRecords(const GrowthInputs& inputs, const Plants& plants, const Links& links,
-                              const Links& before) {
-    const struct {
-        TexelView* view;
-        const Buffer* buffer;
-    } rows[] = {{&nodeView_, &plants.nodes},
-                {&chunkView_, &links.chunks},
-                {&branchView_, &links.branches},
-                {&leafView_, &plants.leaves},
-                {&chunkViewBefore_, &before.chunks}};
-    const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
-    access_.recordsAsTexels = inputs.fetch && device_.info().cpu;
-    for (const auto& row : rows)
-        access_.recordsAsTexels = access_.recordsAsTexels && row.buffer->size() >= 16 && row.buffer->size() <= most;
-    if (Status made = ensure(noTexels_, "growth no texels", 16); !made) return made;
-    for (const auto& [view, buffer] : rows) {
-        *view = {};
-        auto made =
-            TexelView::create(device_, access_.recordsAsTexels ? *buffer : noTexels_, VK_FORMAT_R32G32B32A32_UINT);
-        if (!made) return made.failure();
-        *view = std::move(*made);
-    }
-    return Done{};
-}
-
-void GpuGrowth::dropViews() {
-    for (TexelView* view : {&surfaceView_, &nodeView_, &chunkView_, &branchView_, &leafView_, &chunkViewBefore_})
-        *view = {};
-}
-
 Status GpuGrowth::makeTables(const GrowthInputs& inputs) {
     uint64_t words = 0;
     placeTables(inputs, words);
-    access_.tablesByAddress = words > kUniformTableWords;
+    tablesByAddress_ = words > kUniformTableWords;
     static_assert(kUniformTableWords * 4 == kUniformBytes);
-    const uint64_t tables = access_.tablesByAddress ? words * 4 : kUniformBytes;
+    const uint64_t tables = tablesByAddress_ ? words * 4 : kUniformBytes;
     const uint64_t grammars = inputs.grammars.size() * sizeof(RuleMapRef);
-    if (!access_.tablesByAddress && tables_.size() > kUniformBytes) tables_ = {};
+    if (!tablesByAddress_ && tables_.size() > kUniformBytes) tables_ = {};
     tablesStand_ = tablesStand_ && tables_.size() >= tables && grammars_.size() >= grammars;
     Status made = ensure(tables_, "growth tables", tables);
-    if (made) made = ensure(noTables_, "growth no tables", access_.tablesByAddress ? kUniformBytes : 0);
+    if (made) made = ensure(noTables_, "growth no tables", tablesByAddress_ ? kUniformBytes : 0);
     return made ? ensure(grammars_, "growth grammars", grammars) : made;
 }
 
 // Kernels for what these grammars ask of them.
 Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
-    Status viewed = viewSurfaces(inputs);
-    if (!viewed) return viewed;
     uint32_t features = kFeatureKnown;
     for (const RuleMapRef& map : inputs.grammars)
         features |= map.features == 0 ? kRuleFeatures : map.features & kRuleFeatures;
     if (inputs.limits.leafDensityCap > 0) features |= kFeatureDensity;
     if (inputs.limits.tangents == TangentMode::paper) features |= kFeatureJoints;
     kernels_.use(features);
-    return kernels_.make({marchOf(inputs.limits), GrowthKernel::terminals, GrowthKernel::fit}, access_);
+    return kernels_.make({marchOf(inputs.limits), GrowthKernel::terminals, GrowthKernel::fit}, tablesByAddress_);
 }
 
 // Edits add nodes and leaves before gaps are closed. Where memory that isn't touched costs nothing, there is room for
@@ -102,7 +55,6 @@ Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
 Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen) {
     if (inputs.native && device_.info().cpu) {
         if (Status made = makeRoom(inputs, frozen, true); made) return made;
-        dropViews();
         plants_.spare() = {};
     }
     return makeRoom(inputs, frozen, false);
@@ -134,7 +86,6 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
     if (Status ok = ensureChains(plants); !ok) return ok;
     if (Status tables = makeTables(inputs); !tables) return tables;
     if (Status queues = makeQueues(inputs); !queues || runsNative(inputs)) return queues;
-    if (Status viewed = viewRecords(inputs, plants, links, links); !viewed) return viewed;
     return makeKernels(inputs);
 }
 
@@ -151,8 +102,6 @@ Status GpuGrowth::makeQueues(const GrowthInputs& inputs) {
 ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs, const Plants& plants, const Links& links) {
     ExpandEnv env{};
     env.surfaces = inputs.surfaces;
-    if (access_.surfacesAsTexels && inputs.surfaceData)  // native code sets up no views, and needs none
-        env.scratch = addressOf<UintBuf>(*inputs.surfaceData);
     env.layers = inputs.layers;
     env.grammars = addressOf<RuleMapBuf>(grammars_);
     env.tables = addressOf<UintBuf>(tables_);
@@ -271,7 +220,6 @@ void GpuGrowth::trim() {
     fit(room_.branches, view_.branchCount, least_.branches);
     fit(room_.leaves, view_.leafCount, least_.leaves);
     fit(room_.items, widest_, least_.items);
-    dropViews();
     (void)shrink();  // where there isn't memory even for less, all stays where it is
     const Plants& plants = plants_.drawn();
     const Links& links = links_.drawn();

@@ -67,10 +67,9 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
     if (Status tables = makeTables(inputs); !tables) return tables;
     if (Status queues = makeQueues(inputs); !queues || runsNative(inputs)) return queues;
-    if (Status viewed = viewRecords(inputs, plants_.drawn(), to, from); !viewed) return viewed;
     if (Status kernels = makeKernels(inputs); !kernels) return kernels;
     using enum GrowthKernel;
-    return kernels_.make({find, start, marchAgain, settle, work, terminalsAgain, apply, thickness, fitAgain}, access_);
+    return kernels_.make({find, start, marchAgain, settle, work, terminalsAgain, apply, thickness, fitAgain}, tablesByAddress_);
 }
 
 // Copies the links, unless native code does as it looks at them, and uploads counters, edits and the seeds that are
@@ -162,7 +161,7 @@ Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedCh
     }
     {
         Pass pass(*commands, "expand find");
-        pass.dispatch(kernel(GrowthKernel::find), spreadGroups(), env, {nodeView_, chunkView_, branchView_});
+        pass.dispatch(kernel(GrowthKernel::find), spreadGroups(), env);
         pass.barrier(Use::compute, Use::compute);
         pass.dispatch(kernel(GrowthKernel::start), spreadGroups(), env);
         pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
@@ -185,18 +184,15 @@ void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
         pass.dispatch(kernel(GrowthKernel::work), groups, env);
         pass.barrier(Use::compute, Use::compute);
         env.phase = kTerminalsAgain;
-        pass.dispatch(kernel(GrowthKernel::terminalsAgain), groups, env,
-                      {uniformTables(), nodeView_, chunkView_, branchView_});
+        pass.dispatch(kernel(GrowthKernel::terminalsAgain), groups, env, {uniformTables()});
         pass.barrier(Use::compute, Use::compute);
     }
     Pass pass(commands, "expand fit");
-    const auto records = {Binding(nodeView_), Binding(chunkView_), Binding(branchView_), Binding(leafView_),
-                          Binding(chunkViewBefore_)};
-    pass.dispatch(kernel(GrowthKernel::apply), groups, env, records);
+    pass.dispatch(kernel(GrowthKernel::apply), groups, env);
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(kernel(GrowthKernel::thickness), groups, env);
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(kernel(GrowthKernel::fitAgain), groups, env, {nodeView_, chunkView_, branchView_});
+    pass.dispatch(kernel(GrowthKernel::fitAgain), groups, env);
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 

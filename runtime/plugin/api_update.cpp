@@ -114,17 +114,6 @@ GrowthLimits growthLimits(const EspGrowDef& def) {
     return limits;
 }
 
-// The texels of the one surface that there is, if it is the first of the table, which is where kernels look for it; of
-// others growth knows the tables alone.
-const Buffer* onlySurface(const EspContext& context) {
-    const Buffer* only = nullptr;
-    uint32_t count = 0;
-    context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
-        only = ++count == 1 && instanceOf(id) == 0 ? &surface.gpu.data() : nullptr;
-    });
-    return only;
-}
-
 // All is as it has grown.
 void noteGrown(EspContext& context, std::vector<uint32_t> grammars, std::vector<uint32_t> seeds) {
     context.grownRevision = context.revision;
@@ -152,7 +141,6 @@ EspResult growPlants(EspContext& context) {
     GrowthInputs inputs;
     inputs.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
     inputs.surfaceCount = std::max(context.surfaceSlots(), 1u);
-    inputs.surfaceData = onlySurface(context);
     inputs.layers = addressOf<LayerBuf>(context.layerTable);
     inputs.grammars = maps.refs;
     inputs.widths = maps.widths;

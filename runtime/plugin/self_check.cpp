@@ -84,7 +84,6 @@ Status growPlant(Device& device, Plant& plant) {
     const RuleMapRef there = plant.rules.refAt(plant.words.address());
     inputs = inputsOf(seeds, there);
     inputs.surfaces = plant.surfaceTable();
-    inputs.surfaceData = &plant.gpuSurface.data();
     inputs.layers = addressOf<LayerBuf>(plant.layers);
     if (Status made = assign(plant.growth, Growth::create(device, kRoom)); !made) return made;
     if (Status grown = plant.growth->grow(inputs); !grown) return grown;

@@ -34,8 +34,6 @@ class GpuSurface {
 
     uint64_t hash() const { return hash_; }
     uint64_t sizeBytes() const { return data_.size() + lists_.size(); }
-    // All its arrays, each at a multiple of 16 bytes; see GrowthInputs::surfaceData.
-    const Buffer& data() const { return data_; }
     explicit operator bool() const { return bool(data_); }
 
   private:

@@ -8,18 +8,12 @@
 #include "shaders/shared/expand_env.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 3) const uint kRecordsByAddress = 1u;
 layout(set = 0, binding = 0, scalar) uniform TableBlock { EmitTable table; };
-layout(set = 0, binding = 1) uniform usamplerBuffer leafTexels;
-layout(set = 0, binding = 2) uniform usamplerBuffer spanTexels;
+layout(set = 0, binding = 1) uniform usamplerBuffer spanTexels;
 
 void addTriangles(uint count) { atomicAdd(HEAD.first, count); }
 SpanInstance spanInstance(uint i) { return SPAN_INSTANCE(spanTexels, i); }
-Leaf readLeaf(uint i) {
-    if (kRecordsByAddress != 0u) return push.leaves.v[i];
-    uvec4 t = TEXEL(leafTexels, i);
-    return Leaf(t.x, t.y, t.z, t.w);
-}
+Leaf readLeaf(uint i) { return push.leaves.v[i]; }
 
 void writeLeaf(uint i, LeafInstance o) {
     PairBuf to = PairBuf(uint64_t(push.leafInstances) + uint64_t(i) * 64u);

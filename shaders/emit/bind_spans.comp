@@ -1,6 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define ESPALIER_RECORD_FETCH
 #include "shaders/shared/extensions.glsl"
 // A node each: the span that ends there, as an instance in the world, put into its cell.
 #include "shaders/emit/watch.glsl"

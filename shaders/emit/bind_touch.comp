@@ -6,13 +6,10 @@
 #include "shaders/emit/bind.glsl"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 3) const uint kRecordsByAddress = 1u;
-layout(set = 0, binding = 0) uniform usamplerBuffer touchedTexels;
 
 #include "shaders/emit/touch_node.h"
 
 uvec4 numbersOf(uint first) {
-    if (kRecordsByAddress == 0u) return texelFetch(touchedTexels, int(first / 4u));
     uvec4 numbers = uvec4(0u);
     for (uint k = 0u; k < 4u; ++k)
         if (first + k < push.nodesBefore) numbers[k] = push.touched.v[first + k];

@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define ESPALIER_AGAIN
-#define ESPALIER_RECORD_FETCH
 // A regrowth's pass that publishes: a group takes a chunk at a time.
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/again_apply.h"

@@ -1,6 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define ESPALIER_RECORD_FETCH
 // The first pass of a regrowth, over all chunks.
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/again_find.h"

@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define ESPALIER_AGAIN
-#define ESPALIER_RECORD_FETCH
 // The last pass of a regrowth: a group takes a chunk at a time.
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/again_fit.h"

@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Radii fitted to the branches' thickness, and the canonical hash; see expand_fit.h.
-#define ESPALIER_RECORD_FETCH
 #include "shaders/shared/extensions.glsl"
 #include "shaders/shared/expand_fit.h"
 

@@ -4,6 +4,5 @@
 #extension GL_KHR_shader_subgroup_ballot : require
 // The march over the intrinsic walk.
 #define ESPALIER_TABLES
-#define ESPALIER_SURFACE_FETCH
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/march.glsl"

@@ -13,9 +13,6 @@ void main() {
 #ifdef ESPALIER_AGAIN
     openAgain(env);
 #endif
-#ifdef ESPALIER_SURFACE_FETCH
-    openSurface(env.surfaces, uint64_t(env.scratch), more);
-#endif
     ChunkGrowth c;
     c.g.phase = kPhaseEnded;
     bool live = false;

@@ -5,6 +5,5 @@
 // The march of a regrowth, see expand_again.h.
 #define ESPALIER_AGAIN
 #define ESPALIER_TABLES
-#define ESPALIER_SURFACE_FETCH
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/march.glsl"

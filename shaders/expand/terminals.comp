@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 // Tangent, bark and leaves of every node; see expand_terminals.h.
 #define ESPALIER_TABLES
-#define ESPALIER_RECORD_FETCH
 #include "shaders/shared/extensions.glsl"
 #include "shaders/shared/expand_terminals.h"
 #include "shaders/expand/node_trips.glsl"

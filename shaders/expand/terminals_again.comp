@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 // Terminals of a regrowth's nodes: see keepAgain.
 #define ESPALIER_TABLES
-#define ESPALIER_RECORD_FETCH
 #include "shaders/shared/extensions.glsl"
 #include "shaders/expand/again_terminals.h"
 #include "shaders/expand/node_trips.glsl"

@@ -87,7 +87,7 @@ struct ExpandEnv {
     ChunkBuf chunks;
     BranchBuf branches;
     LeafBuf leaves;
-    UintBuf scratch;         // native code's stage for a chunk's nodes; for shaders, where surfaces' texels begin
+    UintBuf scratch;         // native code's stage for a chunk's nodes
     GrowStatusBuf status;
     WaveBuf waves;
     UintBuf density;         // [kDensityCells] leaves counted, when there is a cap; after them, for the paper's

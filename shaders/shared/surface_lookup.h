@@ -16,100 +16,7 @@ struct Patch {
     bool beside;     // it isn't creased, but another of the four around is
 };
 
-// Reads of a surface's record and arrays. Kernels that define ESPALIER_SURFACE_FETCH call openSurface() first and have
-// the record of the only surface at hand, and its arrays as texels of the one buffer that holds them all: on software
-// devices a read by address is a loop over lanes for each word, a texel comes in one piece. Arrays begin at multiples of
-// 16 bytes. Specialised to kSurfaceByAddress they read as others do.
-#if !defined(__cplusplus) && defined(ESPALIER_SURFACE_FETCH)
-layout(constant_id = 1) const uint kSurfaceByAddress = 1u;
-layout(binding = 1) uniform usamplerBuffer surfaceTexels;
-float scaleAtHand, radiusAtHand;
-uint levelSizes[kMaxLevels];
-// Texels of the buffer where arrays begin.
-uint texelsAt[kMaxLevels], auxAt[kMaxLevels], headsAt[kMaxLevels], refsAt[kMaxLevels];
-uint crossingsAt, chartsAt, trianglesAt;
-
-// arena: address of the buffer's first byte. wanted: false where the invocation has nothing to do with it.
-void openSurface(SurfaceBuf surfaces, uint64_t arena, bool wanted) {
-    if (kSurfaceByAddress != 0u || !wanted) return;
-    uint count = surfaces.v[0].levelCount;
-    for (uint i = 0u; i < kMaxLevels && i < count; ++i) {
-        SurfaceLevel level = surfaces.v[0].levels[i];
-        levelSizes[i] = level.size;
-        texelsAt[i] = uint((uint64_t(level.texels) - arena) >> 4);
-        auxAt[i] = uint((uint64_t(level.aux) - arena) >> 4);
-        headsAt[i] = uint((uint64_t(level.crossingHead) - arena) >> 4);
-        refsAt[i] = uint((uint64_t(level.crossingRefs) - arena) >> 4);
-    }
-    crossingsAt = uint((uint64_t(surfaces.v[0].crossings) - arena) >> 4);
-    chartsAt = uint((uint64_t(surfaces.v[0].charts) - arena) >> 4);
-    trianglesAt = uint((uint64_t(surfaces.v[0].triangles) - arena) >> 4);
-    scaleAtHand = surfaces.v[0].scale;
-    radiusAtHand = surfaces.v[0].radius;
-}
-
-uvec4 fetchSurface(uint texel) { return texelFetch(surfaceTexels, int(texel)); }
-uint wordOf(uvec4 t, uint i) {
-    uint low = (i & 1u) != 0u ? t.y : t.x;
-    uint high = (i & 1u) != 0u ? t.w : t.z;
-    return (i & 2u) != 0u ? high : low;
-}
-float surfaceScale(SurfaceBuf surfaces, uint instance) {
-    return kSurfaceByAddress != 0u ? surfaces.v[instance].scale : scaleAtHand;
-}
-float surfaceRadius(SurfaceBuf surfaces, uint instance) {
-    return kSurfaceByAddress != 0u ? surfaces.v[instance].radius : radiusAtHand;
-}
-uint levelSize(SurfaceBuf surfaces, uint instance, uint level) {
-    return kSurfaceByAddress != 0u ? surfaces.v[instance].levels[level].size : levelSizes[level];
-}
-Texel readTexel(SurfaceBuf surfaces, uint instance, uint level, uint i) {
-    if (kSurfaceByAddress != 0u) return surfaces.v[instance].levels[level].texels.v[i];
-    uvec4 t = fetchSurface(texelsAt[level] + i);
-    return Texel(uintBitsToFloat(t.xyz), t.w);
-}
-uint readTriangle(SurfaceBuf surfaces, uint instance, uint level, uint i) {
-    if (kSurfaceByAddress != 0u) return surfaces.v[instance].levels[level].aux.v[i].triangle;
-    uvec4 t = fetchSurface(auxAt[level] + (i >> 1u));
-    return (i & 1u) != 0u ? t.w : t.y;
-}
-uint readHead(SurfaceBuf surfaces, uint instance, uint level, uint i) {
-    if (kSurfaceByAddress != 0u) return surfaces.v[instance].levels[level].crossingHead.v[i];
-    return wordOf(fetchSurface(headsAt[level] + (i >> 2u)), i & 3u);
-}
-uint readRef(SurfaceBuf surfaces, uint instance, uint level, uint i) {
-    if (kSurfaceByAddress != 0u) return surfaces.v[instance].levels[level].crossingRefs.v[i];
-    return wordOf(fetchSurface(refsAt[level] + (i >> 2u)), i & 3u);
-}
-Crossing readCrossing(SurfaceBuf surfaces, uint instance, uint i) {
-    if (kSurfaceByAddress != 0u) return surfaces.v[instance].crossings.v[i];
-    vec4 a = uintBitsToFloat(fetchSurface(crossingsAt + 3u * i));
-    vec4 b = uintBitsToFloat(fetchSurface(crossingsAt + 3u * i + 1u));
-    uvec4 c = fetchSurface(crossingsAt + 3u * i + 2u);
-    return Crossing(a.xy, a.zw, b.xy, b.zw, c.x, c.y, c.z, c.w);
-}
-TrianglePlane readPlane(SurfaceBuf surfaces, uint instance, uint i) {
-    if (kSurfaceByAddress != 0u) return surfaces.v[instance].triangles.v[i];
-    vec4 a = uintBitsToFloat(fetchSurface(trianglesAt + 4u * i));
-    vec4 b = uintBitsToFloat(fetchSurface(trianglesAt + 4u * i + 1u));
-    uvec4 c = fetchSurface(trianglesAt + 4u * i + 2u);
-    vec4 d = uintBitsToFloat(fetchSurface(trianglesAt + 4u * i + 3u));
-    return TrianglePlane(a.xyz, vec3(a.w, b.xy), vec3(b.zw, uintBitsToFloat(c.x)), uintBitsToFloat(c.yz), c.w, d.xy,
-                         d.zw);
-}
-// A chart's orientation and coarsest level: words 4 and 5 of its 10.
-void readChart(SurfaceBuf surfaces, uint instance, uint i, out float orientation, out uint coarsest) {
-    if (kSurfaceByAddress != 0u) {
-        orientation = surfaces.v[instance].charts.v[i].orientation;
-        coarsest = surfaces.v[instance].charts.v[i].coarsestLevel;
-    } else {
-        uint word = 10u * i + 4u;
-        uvec4 t = fetchSurface(chartsAt + (word >> 2u));
-        orientation = uintBitsToFloat((word & 2u) != 0u ? t.z : t.x);
-        coarsest = (word & 2u) != 0u ? t.w : t.y;
-    }
-}
-#else
+// Reads of a surface's record and arrays.
 FN float surfaceScale(SurfaceBuf surfaces, uint instance) { return surfaces.v[instance].scale; }
 FN float surfaceRadius(SurfaceBuf surfaces, uint instance) { return surfaces.v[instance].radius; }
 FN uint levelSize(SurfaceBuf surfaces, uint instance, uint level) { return surfaces.v[instance].levels[level].size; }
@@ -131,7 +38,6 @@ FN void readChart(SurfaceBuf surfaces, uint instance, uint i, OUT(float) orienta
     orientation = surfaces.v[instance].charts.v[i].orientation;
     coarsest = surfaces.v[instance].charts.v[i].coarsestLevel;
 }
-#endif
 
 // Rows and columns of texelIndex apart: the four texels of a cell share them.
 FN uint texelRow(uint size, uint y) { return (((y >> 3u) * (size >> 3u)) << 6u) + ((y & 7u) << 3u); }

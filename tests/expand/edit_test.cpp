@@ -461,7 +461,6 @@ TEST_CASE("random edits in any order end in what a full growth gives") {
         Session s(models[m], m == 1 ? GrowthRoom{256, 4096, 256, 4096, 64} : GrowthRoom{});
         if (native && !s.gpu.device().info().cpu) break;
         s.scene.native = native;
-        s.scene.fetch = m != 1;
         s.scene.plantMany(25, 0, 1);
         s.scene.plantMany(8, 1, 2);
         s.check();

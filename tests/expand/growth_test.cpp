@@ -99,14 +99,10 @@ TEST_CASE("tables, surfaces and records read by address grow what those read as 
         placeTables(inputs, words);
         REQUIRE((words > kUniformTableWords) == (grammars > 1));
         scene.plantMany(7);
-        for (bool fetch : {true, false}) {
-            CAPTURE(fetch);
-            scene.fetch = fetch;
-            mustGrow(scene, gpu, *growth);
-            checkAlike(scene, *growth);
-            if (first == 0) first = growth->stats().hash;
-            CHECK(growth->stats().hash == first);
-        }
+        mustGrow(scene, gpu, *growth);
+        checkAlike(scene, *growth);
+        if (first == 0) first = growth->stats().hash;
+        CHECK(growth->stats().hash == first);
         scene.plantMany(3, grammars - 1, 2);  // by the last of them
         mustGrow(scene, gpu, *growth);
         checkAlike(scene, *growth);

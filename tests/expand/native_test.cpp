@@ -82,7 +82,7 @@ Bark -> S(0.01) Shape("bark", C1)
     }
 }
 
-TEST_CASE("native code grows where shaders have grown by one surface's words, and there are more surfaces now") {
+TEST_CASE("native code grows where shaders have grown") {
     TestDevice gpu;
     Scene scene = Scene::baked(cube());
     scene.addGrammar(kGuided);
@@ -90,7 +90,6 @@ TEST_CASE("native code grows where shaders have grown by one surface's words, an
     auto growth = gpu.growth();
     mustGrow(scene, gpu, *growth);
     const uint64_t hash = growth->stats().hash;
-    scene.together = false;
     scene.native = true;
     mustGrow(scene, gpu, *growth);
     CHECK(growth->stats().hash == hash);

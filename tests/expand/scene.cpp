@@ -134,8 +134,6 @@ Status Scene::grow(Device& device, Growth& growth) {
     GrowthInputs in;
     in.surfaces = {reinterpret_cast<SurfaceRef*>(upload(std::vector<SurfaceRef>{gpuSurface_.ref()}, "surfaces"))};
     in.surfaceCount = 1;
-    in.surfaceData = together ? &gpuSurface_.data() : nullptr;
-    in.fetch = fetch;
     in.native = native;
     in.layers = {reinterpret_cast<LayerRef*>(upload(layers, "layers"))};
     in.grammars = refs;

@@ -44,8 +44,6 @@ class Scene {
     std::vector<float> widths;
     const GrowthChanges* changes = nullptr;  // see GrowthInputs::changes
     GrowthWatch* watch = nullptr;            // see GrowthInputs
-    bool fetch = true;                       // see GrowthInputs
-    bool together = true;                    // the surface's words lie in one buffer, as those of a single one do
     bool native = false;                     // see there; tests are of shaders where they don't say otherwise
 
     Result<CpuGrowth> growOnCpu();

@@ -109,8 +109,6 @@ Status BenchScene::grow(Growth& growth) {
     GrowthInputs in;
     in.surfaces = surfaces();
     in.surfaceCount = 1;
-    in.surfaceData = &gpuSurface_.data();
-    in.fetch = fetch;
     in.native = native;
     in.layers = {reinterpret_cast<LayerRef*>(layers_.address())};
     in.grammars = {&map, 1};

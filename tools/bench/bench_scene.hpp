@@ -27,7 +27,7 @@ class BenchScene {
     // `count` seeds over all inner texels, each with a direction of its own; the same in every run.
     void plant(uint32_t count);
     GrowthLimits limits;
-    bool fetch = true, native = true;  // see GrowthInputs
+    bool native = true;  // see GrowthInputs
 
     // Paints a layer of `size` texels a side; the next growth reads it. False: no memory.
     bool paint(uint32_t layer, uint32_t size, const std::vector<float>& texels);

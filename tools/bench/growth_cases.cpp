@@ -72,14 +72,10 @@ void growthCases(Bench& bench) {
         if (seeds != 42) continue;
         scene->native = false;
         const Measured shaders = m.stats.native ? measure(bench, *scene, **growth) : m;
-        scene->fetch = false;
-        const Measured addressed = measure(bench, *scene, **growth);
-        scene->fetch = scene->native = true;
+        scene->native = true;
         if (m.stats.native)
             bench.add({row + "/native", "growth as native code, a second of CPU time", "nodes/s", m.coreNodesPerSecond,
                        "as shaders", shaders.coreNodesPerSecond});
-        bench.add({row + "/texels", "shaders reading texels, a second of CPU time", "nodes/s",
-                   shaders.coreNodesPerSecond, "all by address", addressed.coreNodesPerSecond});
         const GrowthStats& s = m.stats;
         bench.add({row + "/nodes", "nodes grown", "nodes", stepsOf(s), "asked for", 500000});
         bench.add({row + "/gpu", "time of expansion", "ms", s.expandMs, "of it marching", s.marchMs});
