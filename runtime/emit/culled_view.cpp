@@ -30,7 +30,7 @@ Result<CulledView> CulledView::create(Device& device, const Terminals& terminals
     CulledView out;
     out.device_ = &device;
     out.terminals_ = &terminals;
-    const ProgramOptions lanes{.constants = {{5, cellLanes(device)}}};
+    const ProgramOptions lanes{.constants = {{kConstantLanes, cellLanes(device)}}};
     Status programs = makeCompute(device, {{out.cullCells_, "emit/cull_cells.comp"},
                                            {out.listBlocks_, "emit/list_blocks.comp"},
                                            {out.listItems_, "emit/list_items.comp", lanes},

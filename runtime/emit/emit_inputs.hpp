@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runtime/expand/growth.hpp"
+#include "runtime/expand/growth_data.hpp"
 #include "shaders/emit/emit_records.h"
 
 namespace espalier {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "runtime/emit/terminals.hpp"
-#include "runtime/roof_growth/roof_growth.hpp"
+#include "runtime/roof_growth/roof_data.hpp"
 
 namespace espalier {
 

@@ -3,13 +3,13 @@
 // leaves up in place; kernels copy them to the other set of buffers, which is drawn from then on.
 #include <string>
 
-#include "runtime/expand/gpu_growth.hpp"
+#include "runtime/expand/growth.hpp"
 
 namespace espalier {
 
 // Native code closes gaps before room runs out: an edit that finds none is done twice, and fresh memory costs far more
 // than closing does. Kernels copy all, which is the better the later.
-bool GpuGrowth::gappy(const GrowthInputs& inputs) const {
+bool Growth::gappy(const GrowthInputs& inputs) const {
     const bool native = runsNative(inputs);
     const auto wide = [&](uint32_t taken, uint32_t live, uint64_t room) {
         const uint32_t gaps = taken - std::min(taken, live);
@@ -23,13 +23,13 @@ bool GpuGrowth::gappy(const GrowthInputs& inputs) const {
 
 // Chunks and branches leave gaps more slowly, which only a full growth closes, the longest wait of a stroke: when of
 // either there are three for each that stands, and more than there is room for to begin with.
-bool GpuGrowth::gappyLinks() const {
+bool Growth::gappyLinks() const {
     const auto wide = [](uint32_t taken, uint32_t live, uint32_t least) { return taken > least && taken / 4 > live; };
     return wide(view_.chunkCount, stats_.chunks, least_.chunks) ||
            wide(view_.branchCount, stats_.branches, least_.branches);
 }
 
-Status GpuGrowth::compact(const GrowthInputs& inputs) {
+Status Growth::compact(const GrowthInputs& inputs) {
     view_.moved = {};  // what it says is written over, and may get no room again
     if (Status ok = ensure(nodesWent_, "growth where nodes went", capacityOf<Node>(*view_.nodeBuffer) * 4ull); !ok)
         return ok;
@@ -42,7 +42,7 @@ Status GpuGrowth::compact(const GrowthInputs& inputs) {
 
 // As many nodes and leaves stay when gaps are closed as there were. Else a driver's kernels have counted wrong, and all
 // grows anew.
-Status GpuGrowth::checkMoved(uint32_t nodes, uint32_t leaves) {
+Status Growth::checkMoved(uint32_t nodes, uint32_t leaves) {
     if (nodes == stats_.nodes && leaves == stats_.leaves) return Done{};
     whole_ = false;
     return deviceFailure("growth",
@@ -53,7 +53,7 @@ Status GpuGrowth::checkMoved(uint32_t nodes, uint32_t leaves) {
 }
 
 // Nodes and leaves are so many now.
-void GpuGrowth::showMoved(uint32_t nodes, uint32_t leaves) {
+void Growth::showMoved(uint32_t nodes, uint32_t leaves) {
     const GrowthMove moved{&nodesWent_, &leavesWent_, view_.nodeCount, view_.leafCount, nodes, leaves};
     GrowStatus status{};
     status.nodes = nodes;
@@ -66,7 +66,7 @@ void GpuGrowth::showMoved(uint32_t nodes, uint32_t leaves) {
     if (touched_ && !touchedIsNew_) view_.touched = &touched_;
 }
 
-Status GpuGrowth::closeGaps() {
+Status Growth::closeGaps() {
     Result<Commands> commands = Commands::begin(device_, "before gaps are closed");
     if (!commands) return commands.failure();
     if (Status finished = commands->finish(); !finished) return finished;
@@ -93,7 +93,7 @@ Status GpuGrowth::closeGaps() {
 }
 
 // For all that there is, and half as much again.
-Status GpuGrowth::makePlantRoom(Plants& plants) {
+Status Growth::makePlantRoom(Plants& plants) {
     const auto roomy = [](uint32_t taken, uint32_t live, uint32_t room) {
         return std::max<uint64_t>({taken, live + live / 2ull, room});
     };
@@ -103,7 +103,7 @@ Status GpuGrowth::makePlantRoom(Plants& plants) {
 }
 
 // Where what has grown leaves too little room: the same in the other set of buffers, with more.
-Status GpuGrowth::enlarge() {
+Status Growth::enlarge() {
     const Plants& now = plants_.drawn();
     const auto suffices = [](uint64_t capacity, uint32_t live, uint32_t room) {
         return capacity >= std::max<uint64_t>(live + live / 8ull, room);
@@ -115,7 +115,7 @@ Status GpuGrowth::enlarge() {
 }
 
 // From the one buffer into the other, once all that reads or writes them is done.
-Status GpuGrowth::copyOver(std::initializer_list<Copied> pairs) {
+Status Growth::copyOver(std::initializer_list<Copied> pairs) {
     Result<Commands> commands = Commands::begin(device_, "move growth");
     if (!commands) return commands.failure();
     for (const Copied& pair : pairs) commands->copy(pair.from, pair.to, pair.bytes);
@@ -123,7 +123,7 @@ Status GpuGrowth::copyOver(std::initializer_list<Copied> pairs) {
 }
 
 // Nodes and leaves to the other set of buffers, with the room that edits ask for.
-Status GpuGrowth::movePlants() {
+Status Growth::movePlants() {
     const Plants& now = plants_.drawn();
     Plants& to = plants_.spare();
     if (Status ok = makePlantRoom(to); !ok) return ok;
@@ -135,7 +135,7 @@ Status GpuGrowth::movePlants() {
     return Done{};
 }
 
-Status GpuGrowth::moveLinks() {
+Status Growth::moveLinks() {
     const Links& now = links_.drawn();
     Links& to = links_.spare();
     const AgainBytes bytes = againBytes(now);
@@ -151,7 +151,7 @@ Status GpuGrowth::moveLinks() {
 
 // After growth that needed far more, what stands moves to buffers of its own size, if that frees more than a block of
 // memory that it may take. Nothing is left of the other set of nodes and leaves.
-Status GpuGrowth::shrink() {
+Status Growth::shrink() {
     constexpr uint64_t kFarMore = 4, kWorth = 64 << 20;
     const auto vast = [](const Buffer& buffer, uint64_t taken) {
         return buffer.size() > kWorth && buffer.size() / kFarMore > taken;
@@ -167,7 +167,7 @@ Status GpuGrowth::shrink() {
     return moveLinks();
 }
 
-Status GpuGrowth::makeCopyRoom() {
+Status Growth::makeCopyRoom() {
     Plants& plants = plants_.spare();
     Links& links = links_.spare();
     const Links& linksNow = links_.drawn();
@@ -181,7 +181,7 @@ Status GpuGrowth::makeCopyRoom() {
                        tablesByAddress_)});
 }
 
-CompactEnv GpuGrowth::compactEnvironment() const {
+CompactEnv Growth::compactEnvironment() const {
     CompactEnv env{};
     env.nodes = view_.nodes;
     env.leaves = view_.leaves;
@@ -197,7 +197,7 @@ CompactEnv GpuGrowth::compactEnvironment() const {
     return env;
 }
 
-Status GpuGrowth::copyTogether() {
+Status Growth::copyTogether() {
     if (Status room = makeCopyRoom(); !room) return room;
     const Links &links = links_.spare(), &linksNow = links_.drawn();
     Result<Commands> commands = Commands::begin(device_, "close gaps");

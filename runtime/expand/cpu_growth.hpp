@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "runtime/expand/growth.hpp"
+#include "runtime/expand/growth_data.hpp"
 
 namespace espalier {
 

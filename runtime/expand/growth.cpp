@@ -7,7 +7,7 @@
 
 #include "runtime/core/check.hpp"
 #include "runtime/core/undo.hpp"
-#include "runtime/expand/gpu_growth.hpp"
+#include "runtime/expand/growth.hpp"
 
 namespace espalier {
 namespace {
@@ -46,8 +46,8 @@ GrowStatus withoutFrozen(GrowStatus status, const GrowthRecords& frozen) {
 
 }  // namespace
 
-Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, const FrozenSum& frozen,
-                               const GrowthCut& cut) {
+Status Growth::uploadInputs(Commands& commands, const GrowthInputs& inputs, const FrozenSum& frozen,
+                            const GrowthCut& cut) {
     const Plants& plants = plants_.spare();
     const Links& links = links_.spare();
     const GrowthRecords& r = frozen.records;
@@ -62,7 +62,7 @@ Status GpuGrowth::uploadInputs(Commands& commands, const GrowthInputs& inputs, c
                     uploadTables(commands, inputs, !runsNative(inputs))});
 }
 
-void GpuGrowth::recordWaves(Pass& pass, const Program& march, const ExpandEnv& base, uint32_t first, uint32_t last) {
+void Growth::recordWaves(Pass& pass, const Program& march, const ExpandEnv& base, uint32_t first, uint32_t last) {
     ExpandEnv env = base;
     for (uint32_t w = first; w < last; ++w) {
         env.wave = w;
@@ -75,8 +75,8 @@ void GpuGrowth::recordWaves(Pass& pass, const Program& march, const ExpandEnv& b
 }
 
 // Waves [first, last), then the terminal passes, which do nothing should wave `last` not be empty.
-Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t first, uint32_t last,
-                         const GrowthLimits& limits) {
+Status Growth::record(Commands& commands, const ExpandEnv& base, uint32_t first, uint32_t last,
+                      const GrowthLimits& limits) {
     {
         Pass pass(commands, "expand march");
         recordWaves(pass, kernel(marchOf(limits)), base, first, last);
@@ -90,7 +90,7 @@ Status GpuGrowth::record(Commands& commands, const ExpandEnv& base, uint32_t fir
     return Done{};
 }
 
-void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits) {
+void Growth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits) {
     const Program& terminals = kernel(GrowthKernel::terminals);
     env.phase = kTerminalsWrite;
     constexpr uint64_t kNodes = offsetof(GrowStatus, nodeGroups), kBranches = offsetof(GrowStatus, branchGroups);
@@ -123,8 +123,8 @@ void GpuGrowth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthL
 }
 
 // What follows needs no kernels, so none are made.
-Result<GpuGrowth::Outcome> GpuGrowth::attemptNative(const GrowthInputs& inputs, const FrozenSum& frozen,
-                                                    const GrowthCut& cut) {
+Result<Growth::Outcome> Growth::attemptNative(const GrowthInputs& inputs, const FrozenSum& frozen,
+                                              const GrowthCut& cut) {
     ExpandEnv env = environment(inputs, plants_.spare(), links_.spare());
     {
         Result<Commands> commands = Commands::begin(device_, "expand inputs");
@@ -147,15 +147,14 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptNative(const GrowthInputs& inputs, 
     return outcome;
 }
 
-Result<GpuGrowth::Outcome> GpuGrowth::attempt(const GrowthInputs& inputs, const FrozenSum& frozen,
-                                              const GrowthCut& cut) {
+Result<Growth::Outcome> Growth::attempt(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut) {
     if (Status room = makeRoom(inputs, frozen.records); !room) return room.failure();
     stats_.native = runsNative(inputs);
     return stats_.native ? attemptNative(inputs, frozen, cut) : attemptShaders(inputs, frozen, cut);
 }
 
-Result<GpuGrowth::Outcome> GpuGrowth::attemptShaders(const GrowthInputs& inputs, const FrozenSum& frozen,
-                                                     const GrowthCut& cut) {
+Result<Growth::Outcome> Growth::attemptShaders(const GrowthInputs& inputs, const FrozenSum& frozen,
+                                               const GrowthCut& cut) {
     ExpandEnv env = environment(inputs, plants_.spare(), links_.spare());
     Outcome outcome;
     uint32_t first = 0;
@@ -189,7 +188,7 @@ Result<GpuGrowth::Outcome> GpuGrowth::attemptShaders(const GrowthInputs& inputs,
     }
 }
 
-void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome, Origin&& origin) {
+void Growth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome, Origin&& origin) {
     origin_ = std::move(origin);
     plants_.swap();
     links_.swap();
@@ -211,7 +210,7 @@ void GpuGrowth::publish(const GrowthInputs& inputs, const FrozenSum& frozen, con
     stats_.reservedBytes = reserved();
 }
 
-Status GpuGrowth::grow(const GrowthInputs& inputs) {
+Status Growth::grow(const GrowthInputs& inputs) {
     if (inputs.watch) inputs.watch->begin();
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
@@ -232,14 +231,14 @@ Status GpuGrowth::grow(const GrowthInputs& inputs) {
 }
 
 // What has failed leaves the room that it asked for to nobody: later growth may need far less.
-Status GpuGrowth::growAll(const GrowthInputs& inputs) {
+Status Growth::growAll(const GrowthInputs& inputs) {
     Undo room([this, before = room_] { room_ = before; });
     Status grown = growWhole(inputs);
     if (grown) room.done();
     return grown;
 }
 
-Status GpuGrowth::growWhole(const GrowthInputs& inputs) {
+Status Growth::growWhole(const GrowthInputs& inputs) {
     room_.items = std::max(room_.items, uint32_t(inputs.seeds.size()));
     const FrozenSum frozen = sumOf(inputs.frozen, uint32_t(inputs.seeds.size()));
     if (frozen.records.leaves.size() > inputs.limits.maxLeaves)

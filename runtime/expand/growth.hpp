@@ -1,134 +1,220 @@
 #pragma once
 
-// Expansion: seeds × rule maps × layers become chunks, nodes and leaves in GPU buffers.
+// Expansion in GPU buffers: growth.cpp grows all anew, regrowth.cpp only what an edit concerns, compaction.cpp closes
+// the gaps that this leaves; growth_set_up.cpp is what they share.
 
-#include <cstdint>
-#include <memory>
-#include <span>
-#include <vector>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <optional>
+#include <thread>
 
-#include "runtime/core/result.hpp"
-#include "runtime/expand/changes.hpp"
-#include "runtime/expand/frozen.hpp"
-#include "runtime/expand/growth_watch.hpp"
+#include "runtime/expand/growth_data.hpp"
+#include "runtime/expand/growth_kernels.hpp"
+#include "runtime/expand/growth_plan.hpp"
+#include "runtime/expand/native_growth.hpp"
+#include "runtime/expand/seed_changes.hpp"
 #include "runtime/gpu/buffer.hpp"
-#include "shaders/shared/growth_records.h"
-#include "shaders/shared/rule_map.h"
+#include "runtime/gpu/commands.hpp"
+#include "shaders/expand/compact.h"
+#include "shaders/shared/expand_again.h"
+#include "shaders/shared/expand_tables.h"
 
 namespace espalier {
 
-enum class WalkMode : uint32_t { intrinsic = 0, paper = 1 };
-enum class TangentMode : uint32_t { stem = 0, paper = 1 };
+// Bytes of a buffer that is read as texels to its end.
+inline uint64_t wholeTexels(uint64_t bytes) {
+    return (bytes + 15) / 16 * 16;
+}
 
-struct GrowthLimits {
-    WalkMode walk = WalkMode::intrinsic;
-    TangentMode tangents = TangentMode::stem;
-    // Growth that would exceed this is cut at whole waves, and of the last one by a share that the keys draw: the
-    // same plants in every run. It is counted in GrowthStats::overflow and ::stopped. Chunks are limited to half of
-    // it (and 4,096).
-    uint32_t maxNodes = 4'000'000;
-    uint32_t maxDepth = 4096;       // chunks one after another along one path, 1 to 65,534
-    uint32_t maxLeaves = 1u << 30;  // with those of frozen plants, at most 2^31; growth that would have more fails
-    float leafDensityCap = 0;       // leaves per m² and seed, 0: none
-};
+// Wall time of work().
+template <class Work>
+double millisecondsOf(const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
 
-// Everything that growth depends on. Addresses are device addresses (for growOnCpu: pointers) and stay valid during
-// grow(). Charts are numbers that the surface has, else the seed is lost (and counted as a dead end).
-struct GrowthInputs {
-    SurfaceBuf surfaces{};  // indexed by surface instance
-    uint32_t surfaceCount = 0;
-    // True: on a software device whose addresses are the process's own, growth runs as native code on its cores
-    // (native_growth.hpp), with the same result. False: as shaders there too.
-    bool native = true;
-    LayerBuf layers{};  // surfaceCount * kMaxLayers
-    std::span<const RuleMapRef> grammars;
-    // One a grammar, metres, or empty: shapes of this width grow on the coarsest level whose texels are no wider.
-    // 0: on the finest.
-    std::span<const float> widths;
-    std::span<const Seed> seeds;
-    // Keys of branches (their first chunk's) that are cut away with all that would follow from them; ascending, none
-    // twice. One that no branch has does nothing.
-    std::span<const uint64_t> pruned;
-    // Plants that stand as they are; BranchRecord::seed counts them after the seeds. One that last time's growth grew
-    // stays in its place; it counts against maxNodes, but not against the density cap.
-    std::span<const FrozenPlant> frozen;
-    GrowthLimits limits;
-    // What is different from the inputs of the last grow() that succeeded. Null: everything.
-    const GrowthChanges* changes = nullptr;
-    // Null: nobody waits. It outlives grow().
-    GrowthWatch* watch = nullptr;
-};
-
-// Where a growth that only closed gaps moved what there was.
-struct GrowthMove {
-    // [as it was numbered]: its number now, kNoIndex: it is no more. Null: there was no such move.
-    const Buffer *nodes = nullptr, *leaves = nullptr;
-    uint32_t nodesBefore = 0, leavesBefore = 0;  // with the gaps
-    uint32_t nodesAfter = 0, leavesAfter = 0;
-};
-
-// What the later stages read. Buffers belong to Growth and change only in grow() and trim(). Counts include the gaps
-// that edits left: nodes without bark and with a radius below 0, chunks without marks, branches and leaves of kNoIndex.
-struct GrowthView {
-    NodeBuf nodes{};
-    ChunkBuf chunks{};
-    BranchBuf branches{};
-    LeafBuf leaves{};
-    uint32_t nodeCount = 0, chunkCount = 0, branchCount = 0, leafCount = 0;
-    // The whole buffers that these lie in, from their beginnings on. Null: nobody knows how large they are.
-    const Buffer *nodeBuffer = nullptr, *chunkBuffer = nullptr, *leafBuffer = nullptr;
-    uint64_t revision = 0;  // grows with every grow() that changed anything
-    // Growths have numbers. Those after `renewed` only added nodes and leaves at the end, and wrote the nodes (and took
-    // away, or added, their leaves) whose touched[node] is their number, or a later one; `renewed` wrote all, but if it
-    // only moved what there was, `moved` says where to. touched null: all growths did.
-    const Buffer* touched = nullptr;
-    uint32_t number = 0, renewed = 0;
-    GrowthMove moved;
-};
-
-struct GrowthStats {
-    uint32_t seeds = 0, chunks = 0, branches = 0, nodes = 0, steps = 0, leaves = 0;
-    uint32_t inserted = 0;    // nodes that seams, creases and split spans put in
-    uint32_t waves = 0;       // of the queue, in the latest grow()
-    uint32_t expansions = 0;  // grow() calls since creation that had something to do
-    uint32_t regrowths = 0;   // of these, those that grew only what an edit concerned
-    uint32_t derived = 0;     // nodes that the latest grow() derived
-    uint32_t enlarged = 0;    // times that buffers were too small and were enlarged, in the latest grow()
-    uint32_t overflow = 0;    // times that a limit cut growth, in the latest grow(); 0: it stands whole
-    uint32_t stopped = 0;     // shapes that a limit ended
-    uint32_t deadEnds = 0;    // branches that found no direction that their condition allows
-    uint64_t nodeBytes = 0, leafBytes = 0,
-             chunkBytes = 0;     // of records; chunkBytes counts branches too, leafBytes the links from nodes
-    uint64_t reservedBytes = 0;  // of all buffers held: both sets of records, queues, scratch
-    uint64_t hash = 0;           // canonical: positions, radii and all terminals, independent of order
-    bool native = false;         // it ran as native code
-    double expandMs = 0;         // GPU time of the attempt that succeeded; of native code, wall time
-    double marchMs = 0, terminalsMs = 0, fitMs = 0;
-};
-
-// Room to begin with, in records; it grows by need and is kept.
-struct GrowthRoom {
-    uint32_t chunks = 8192, nodes = 65536, branches = 8192, leaves = 65536, items = 4096;
-};
+template <class T>
+uint32_t capacityOf(const Buffer& buffer) {
+    return uint32_t(std::min<uint64_t>(buffer.size() / sizeof(T), 0x7FFFFFFF));
+}
 
 class Growth {
   public:
     static Result<std::unique_ptr<Growth>> create(Device& device, const GrowthRoom& room = {});
-    virtual ~Growth() = default;
 
     // Grows what inputs.changes and the seeds say, or everything anew, and publishes it when complete; until then, and
     // on failure, the last growth stands.
     // Fails for inputs that can't be grown (a seed of no grammar, NaN), when memory has run out, and when
     // inputs.watch has stopped it.
-    virtual Status grow(const GrowthInputs& inputs) = 0;
-    virtual GrowthView view() const = 0;
-    virtual GrowthStats stats() const = 0;
+    Status grow(const GrowthInputs& inputs);
+    GrowthView view() const { return view_; }
+    GrowthStats stats() const { return stats_; }
     // Waits for the GPU and copies the published growth, without gaps: indices differ from those of view().
-    virtual Result<GrowthRecords> read() = 0;
+    Result<GrowthRecords> read();
     // Drops what only the next full growth would use, or edits of more than what stands, and makes its room what the
     // last one needs, with half as much to spare. What stands stays, but may lie elsewhere after growth that needed far
     // more.
-    virtual void trim() = 0;
+    void trim();
+
+  private:
+    Growth(Device& device, const GrowthRoom& room) : device_(device), kernels_(device), least_(room), room_(room) {}
+    Status setUp();
+
+    // What is drawn is in one of two sets. A full growth writes the other one of both; a regrowth adds to the nodes and
+    // leaves that are drawn, and writes the other links.
+    template <class Set>
+    struct DoubleBuffered {
+        Set sets[2];
+        uint32_t front = 0;
+        Set& drawn() { return sets[front]; }
+        Set& spare() { return sets[1 - front]; }
+        const Set& drawn() const { return sets[front]; }
+        const Set& spare() const { return sets[1 - front]; }
+        void swap() { front = 1 - front; }
+    };
+    struct Plants {
+        Buffer nodes, leaves;
+    };
+    struct Links {
+        Buffer chunks, branches;
+    };
+    // What a growth was made from: all that the next one compares.
+    struct Origin : GrownFrom {
+        GrowthLimits limits;
+        uint32_t surfaceCount = 0;
+        std::vector<RuleMapRef> maps;
+    };
+    struct Outcome {
+        GrowStatus status;
+        std::vector<Wave> waves;
+        double marchMs = 0, terminalsMs = 0, fitMs = 0;
+    };
+
+    // Both kinds: growth_set_up.cpp.
+    Status ensureChains(const Plants& plants);
+    Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
+    Status makeTables(const GrowthInputs& inputs);
+    Status makeKernels(const GrowthInputs& inputs);
+    Status makeQueues(const GrowthInputs& inputs);
+    Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen);
+    Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen, bool spare);  // with room for edits
+    // pack: by a kernel; else it is left to native code.
+    Status uploadTables(Commands& commands, const GrowthInputs& inputs, bool pack);
+    // Counters of an attempt, and the pruned branches that they lead to.
+    Status uploadStatus(Commands& commands, const GrowthInputs& inputs, GrowStatus status);
+    ExpandEnv environment(const GrowthInputs& inputs, const Plants& plants, const Links& links);
+    // Waves [first, last) of `march`.
+    void recordWaves(Pass& pass, const Program& march, const ExpandEnv& env, uint32_t first, uint32_t last);
+    Outcome readOutcome(uint32_t last);
+    static Origin originOf(const GrowthInputs& inputs);
+    // What lies in front is drawn from now on. all: nodes aren't where they were.
+    void show(const GrowStatus& status, bool all);
+    void lookAtFront();  // its buffers, which hold the same as those before, or what show() tells
+    uint64_t reserved() const;
+    // Whether growth runs as native code.
+    bool runsNative(const GrowthInputs& inputs) const {
+        return inputs.native && device_.info().cpu && status_ && uintptr_t(status_.mapped()) == status_.address();
+    }
+    // ExpandEnv::density; frozen: nodes that stand before those for which there is room.
+    uint64_t densityWords(const GrowthLimits& limits, uint64_t frozen) const {
+        if (limits.tangents == TangentMode::paper) return kDensityCells + 3 * (room_.nodes + frozen);
+        return limits.leafDensityCap > 0 ? kDensityCells : 1;
+    }
+    const Program& kernel(GrowthKernel kernel) const { return kernels_.get(kernel, tablesByAddress_); }
+    static GrowthKernel marchOf(const GrowthLimits& limits) {
+        return limits.walk == WalkMode::paper ? GrowthKernel::marchPaper : GrowthKernel::march;
+    }
+    // The packed tables for kernels' uniform binding: something of its size when they are read by address.
+    const Buffer& uniformTables() const { return tablesByAddress_ ? noTables_ : tables_; }
+
+    // All anew: growth.cpp.
+    Status growAll(const GrowthInputs& inputs);
+    Status growWhole(const GrowthInputs& inputs);
+    Result<Outcome> attempt(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
+    Result<Outcome> attemptShaders(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
+    Result<Outcome> attemptNative(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
+    Status uploadInputs(Commands& commands, const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
+    Status record(Commands& commands, const ExpandEnv& env, uint32_t first, uint32_t last, const GrowthLimits& limits);
+    void recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits);
+    void publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome, Origin&& origin);
+
+    // What an edit concerns: regrowth.cpp.
+    bool canRegrow(const GrowthInputs& inputs) const;
+    enum class Regrown { done, tooMuch, noRoom };
+    Result<Regrown> regrow(const GrowthInputs& inputs, const SeedChanges& seeds);
+    static constexpr uint64_t kLeastEditBytes = 16384;
+    // Of the buffers of a regrowth of what these links hold.
+    struct AgainBytes {
+        uint64_t chunks, branches, marks, lists, results;
+    };
+    AgainBytes againBytes(const Links& from) const;
+    Status makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords);
+    Status uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
+                       std::span<const uint32_t> edits);
+    // edits: editWords(inputs, seeds).
+    Result<AgainState> findDirty(const GrowthInputs& inputs, const SeedChanges& seeds, std::span<const uint32_t> edits,
+                                 ExpandEnv env);
+    Result<Regrown> growAgain(const GrowthInputs& inputs, const ExpandEnv& env, Outcome& outcome, AgainState& state);
+    Status growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
+    void growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
+    void recordAgain(Commands& commands, ExpandEnv env);
+    void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state, Origin&& origin);
+    ItemQueues itemQueues() const { return {addressOf<WorkItemBuf>(items_[0]).v, addressOf<WorkItemBuf>(items_[1]).v}; }
+    // Groups of a pass whose kernels go through chunks or lists of them by themselves: few, since each costs, but none
+    // with more than some 512 chunks to go through, see kMaxTrips.
+    std::array<uint32_t, 3> spreadGroups() const {
+        const uint32_t threads = std::thread::hardware_concurrency();
+        return {device_.info().cpu ? std::max({16u, std::min(8 * threads, 64u), view_.chunkCount / 512}) : 1024u, 1, 1};
+    }
+
+    // Frozen plants that GrowthChanges::frozen names, among what is drawn as if they had been there before: put_in.cpp.
+    // False: there is no room.
+    Result<bool> putIn(const GrowthInputs& inputs);
+    Result<Regrown> regrowWithFrozen(const GrowthInputs& inputs);  // with them
+
+    // Gaps that edits have left: compaction.cpp.
+    bool gappy(const GrowthInputs& inputs) const;
+    bool gappyLinks() const;
+    Status makePlantRoom(Plants& plants);
+    Status compact(const GrowthInputs& inputs);
+    Status closeGaps();
+    Status enlarge();
+    struct Copied {
+        const Buffer &from, &to;
+        uint64_t bytes;
+    };
+    Status copyOver(std::initializer_list<Copied> pairs);
+    Status movePlants();
+    Status moveLinks();
+    Status shrink();
+    Status copyTogether();
+    Status makeCopyRoom();
+    CompactEnv compactEnvironment() const;
+    Status checkMoved(uint32_t nodes, uint32_t leaves);
+    void showMoved(uint32_t nodes, uint32_t leaves);
+
+    Device& device_;
+    GrowthKernels kernels_;
+    Crew crew_;                     // of native code; its threads sleep between growths
+    const GrowthRoom least_;        // to begin with
+    GrowthRoom room_;               // of a full growth, beside frozen plants
+    uint32_t likelyWaves_ = 24;     // recorded in the first submission
+    bool tablesByAddress_ = false;  // else from a uniform buffer, which holds kUniformTableWords
+    DoubleBuffered<Plants> plants_;
+    DoubleBuffered<Links> links_;
+    Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, density_, readback_;
+    Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_, touched_, nodesWent_, leavesWent_;
+    bool touchedIsNew_ = false;  // and holds nothing yet
+    bool chained_ = false;       // leaves on the nodes that are drawn are chained
+    bool tablesStand_ = false;   // tables_ and grammars_ hold what is drawn was grown by
+    GrowthView view_;
+    GrowthStats stats_;
+    Origin origin_;        // of the growth that is shown
+    bool whole_ = false;   // no limit cut it, and no failure an edit of it: edits may grow only what they concern
+    uint32_t widest_ = 0;  // items of its widest wave
 };
 
 }  // namespace espalier

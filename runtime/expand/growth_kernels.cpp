@@ -8,8 +8,8 @@
 namespace espalier {
 namespace {
 
-// Numbers of specialisation constants, as bits.
-constexpr uint32_t kTables = 1u << 0, kFeatureSet = 1u << 2;
+// Which specialization constants a kernel has, as bits.
+constexpr uint32_t kTables = 1u << 0, kFeatureSet = 1u << 1;
 
 struct Row {
     GrowthKernel kernel;
@@ -66,8 +66,8 @@ Status GrowthKernels::make(std::initializer_list<GrowthKernel> kernels, bool tab
         if (program) continue;
         const Row& row = rowOf(kernel);
         std::vector<SpecConstant> constants;
-        if (row.constants & kTables) constants.push_back({0, tablesByAddress ? 1u : 0u});
-        if (row.constants & kFeatureSet) constants.push_back({2, features_});
+        if (row.constants & kTables) constants.push_back({kConstantTablesByAddress, tablesByAddress ? 1u : 0u});
+        if (row.constants & kFeatureSet) constants.push_back({kConstantFeatures, features_});
         Status made = makeCompute(device_, {{program, row.shader, exactly(std::move(constants)), kExpandGroup}});
         if (!made) return made;
     }

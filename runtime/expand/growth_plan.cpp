@@ -118,7 +118,7 @@ std::vector<WorkItem> itemsOfSeeds(std::span<const Seed> seeds) {
 
 std::vector<GrammarTables> placeTables(const GrowthInputs& inputs, uint64_t& words) {
     std::vector<GrammarTables> tables(inputs.grammars.size());
-    words = tables.size() * kGrammarWords;
+    words = tables.size() * kGrammarTables_words;
     auto take = [&](uint64_t count) {
         uint64_t first = words;
         words += count;
@@ -128,11 +128,11 @@ std::vector<GrammarTables> placeTables(const GrowthInputs& inputs, uint64_t& wor
         const RuleMapRef& map = inputs.grammars[i];
         GrammarTables& t = tables[i];
         t = {};
-        t.symbols = take(uint64_t(map.symbolCount) * kSymbolWords);
-        t.rules = take(uint64_t(map.ruleCount) * kRuleWords);
-        t.successors = take(uint64_t(map.successorCount) * kSuccessorWords);
-        t.terminals = take(uint64_t(map.terminalCount) * kTerminalWords);
-        t.extrudes = take(uint64_t(map.extrudeCount) * kExtrudeWords);
+        t.symbols = take(uint64_t(map.symbolCount) * kSymbolRow_words);
+        t.rules = take(uint64_t(map.ruleCount) * kRuleRow_words);
+        t.successors = take(uint64_t(map.successorCount) * kSuccessorRow_words);
+        t.terminals = take(uint64_t(map.terminalCount) * kTerminalRow_words);
+        t.extrudes = take(uint64_t(map.extrudeCount) * kExtrudeRow_words);
         t.code = take(uint64_t(map.codeCount) * 2);
         t.sites = take(map.siteCount);
         t.width = inputs.widths.empty() ? 0.0f : inputs.widths[i];

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "runtime/expand/growth.hpp"
+#include "runtime/expand/growth_data.hpp"
 #include "shaders/shared/expand_env.h"
 
 namespace espalier {

@@ -3,29 +3,29 @@
 #include <algorithm>
 
 #include "runtime/core/check.hpp"
-#include "runtime/expand/gpu_growth.hpp"
+#include "runtime/expand/growth.hpp"
 #include "runtime/gpu/limits.hpp"
 
 namespace espalier {
 
-Status GpuGrowth::setUp() {
+Status Growth::setUp() {
     return kernels_.make({GrowthKernel::tables, GrowthKernel::branches}, tablesByAddress_);
 }
 
-Status GpuGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
+Status Growth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
     if (buffer.size() < bytes) buffer = {};  // before the new one, for which there may be no room beside it
     return makeAtLeast(device_, buffer, name, bytes, use);
 }
 
 // Room for the chains of leaves on nodes. What gets new room has to be chained anew.
-Status GpuGrowth::ensureChains(const Plants& plants) {
+Status Growth::ensureChains(const Plants& plants) {
     const uint64_t nodes = capacityOf<Node>(plants.nodes) * 4ull, leaves = capacityOf<Leaf>(plants.leaves) * 4ull;
     if (!firstLeaves_ || firstLeaves_.size() < nodes || !nextLeaves_ || nextLeaves_.size() < leaves) chained_ = false;
     if (Status ok = ensure(firstLeaves_, "growth first leaves", nodes); !ok) return ok;
     return ensure(nextLeaves_, "growth next leaves", leaves);
 }
 
-Status GpuGrowth::makeTables(const GrowthInputs& inputs) {
+Status Growth::makeTables(const GrowthInputs& inputs) {
     uint64_t words = 0;
     placeTables(inputs, words);
     tablesByAddress_ = words > kUniformTableWords;
@@ -40,7 +40,7 @@ Status GpuGrowth::makeTables(const GrowthInputs& inputs) {
 }
 
 // Kernels for what these grammars ask of them.
-Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
+Status Growth::makeKernels(const GrowthInputs& inputs) {
     uint32_t features = kFeatureKnown;
     for (const RuleMapRef& map : inputs.grammars)
         features |= map.features == 0 ? kRuleFeatures : map.features & kRuleFeatures;
@@ -52,7 +52,7 @@ Status GpuGrowth::makeKernels(const GrowthInputs& inputs) {
 
 // Edits add nodes and leaves before gaps are closed. Where memory that isn't touched costs nothing, there is room for
 // these at once, if there is any: what outgrows its room is copied whole.
-Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen) {
+Status Growth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen) {
     if (inputs.native && device_.info().cpu) {
         if (Status made = makeRoom(inputs, frozen, true); made) return made;
         plants_.spare() = {};
@@ -60,7 +60,7 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
     return makeRoom(inputs, frozen, false);
 }
 
-Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen, bool spare) {
+Status Growth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen, bool spare) {
     Plants& plants = plants_.spare();
     Links& links = links_.spare();
     struct Row {
@@ -89,7 +89,7 @@ Status GpuGrowth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& froz
     return makeKernels(inputs);
 }
 
-Status GpuGrowth::makeQueues(const GrowthInputs& inputs) {
+Status Growth::makeQueues(const GrowthInputs& inputs) {
     const uint64_t waves = inputs.limits.maxDepth + 2ull;
     const uint64_t items = uint64_t(room_.items) * sizeof(WorkItem);
     return allDone({ensure(items_[0], "growth items even", items), ensure(items_[1], "growth items odd", items),
@@ -99,7 +99,7 @@ Status GpuGrowth::makeQueues(const GrowthInputs& inputs) {
                            BufferUse::readback)});
 }
 
-ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs, const Plants& plants, const Links& links) {
+ExpandEnv Growth::environment(const GrowthInputs& inputs, const Plants& plants, const Links& links) {
     ExpandEnv env{};
     env.surfaces = inputs.surfaces;
     env.layers = inputs.layers;
@@ -116,7 +116,7 @@ ExpandEnv GpuGrowth::environment(const GrowthInputs& inputs, const Plants& plant
     return env;
 }
 
-Status GpuGrowth::uploadTables(Commands& commands, const GrowthInputs& inputs, bool pack) {
+Status Growth::uploadTables(Commands& commands, const GrowthInputs& inputs, bool pack) {
     tablesStand_ = false;
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     uint64_t words = 0;
@@ -133,7 +133,7 @@ Status GpuGrowth::uploadTables(Commands& commands, const GrowthInputs& inputs, b
     return Done{};
 }
 
-Status GpuGrowth::uploadStatus(Commands& commands, const GrowthInputs& inputs, GrowStatus status) {
+Status Growth::uploadStatus(Commands& commands, const GrowthInputs& inputs, GrowStatus status) {
     if (!inputs.pruned.empty()) {
         Status made = ensure(pruned_, "growth pruned", inputs.pruned.size_bytes());
         if (made) made = commands.upload(pruned_, keyWords(inputs.pruned));
@@ -146,7 +146,7 @@ Status GpuGrowth::uploadStatus(Commands& commands, const GrowthInputs& inputs, G
     return commands.upload(status_, std::vector<GrowStatus>{status});
 }
 
-GpuGrowth::Outcome GpuGrowth::readOutcome(uint32_t last) {
+Growth::Outcome Growth::readOutcome(uint32_t last) {
     Outcome outcome;
     std::memcpy(&outcome.status, readback_.mapped(), sizeof(GrowStatus));
     outcome.waves.resize(last + 1);
@@ -154,7 +154,7 @@ GpuGrowth::Outcome GpuGrowth::readOutcome(uint32_t last) {
     return outcome;
 }
 
-void GpuGrowth::lookAtFront() {
+void Growth::lookAtFront() {
     const Plants& plants = plants_.drawn();
     const Links& links = links_.drawn();
     view_.nodes = addressOf<NodeBuf>(plants.nodes);
@@ -166,7 +166,7 @@ void GpuGrowth::lookAtFront() {
     view_.leafBuffer = &plants.leaves;
 }
 
-void GpuGrowth::show(const GrowStatus& status, bool all) {
+void Growth::show(const GrowStatus& status, bool all) {
     lookAtFront();
     view_.nodeCount = status.nodes;
     view_.chunkCount = status.chunks;
@@ -179,7 +179,7 @@ void GpuGrowth::show(const GrowStatus& status, bool all) {
     if (all) view_.moved = {};
 }
 
-uint64_t GpuGrowth::reserved() const {
+uint64_t Growth::reserved() const {
     uint64_t bytes = 0;
     for (const Plants& p : plants_.sets) bytes += p.nodes.size() + p.leaves.size();
     for (const Links& l : links_.sets) bytes += l.chunks.size() + l.branches.size();
@@ -190,7 +190,7 @@ uint64_t GpuGrowth::reserved() const {
     return bytes;
 }
 
-Result<GrowthRecords> GpuGrowth::read() {
+Result<GrowthRecords> Growth::read() {
     Plants& plants = plants_.drawn();
     Links& links = links_.drawn();
     GrowthRecords to;
@@ -211,7 +211,7 @@ Result<GrowthRecords> GpuGrowth::read() {
 }
 
 // What every edit uses stays as large as edits of what stands ask for it.
-void GpuGrowth::trim() {
+void Growth::trim() {
     const auto fit = [](uint32_t& room, uint32_t needed, uint32_t least) {
         room = std::min<uint64_t>(room, std::max<uint64_t>(needed + needed / 2ull, least));
     };
@@ -246,7 +246,7 @@ void GpuGrowth::trim() {
     stats_.reservedBytes = reserved();
 }
 
-GpuGrowth::Origin GpuGrowth::originOf(const GrowthInputs& inputs) {
+Growth::Origin Growth::originOf(const GrowthInputs& inputs) {
     Origin origin;
     origin.seeds.assign(inputs.seeds.begin(), inputs.seeds.end());
     origin.frozen.assign(inputs.frozen.begin(), inputs.frozen.end());
@@ -259,10 +259,10 @@ GpuGrowth::Origin GpuGrowth::originOf(const GrowthInputs& inputs) {
 }
 
 Result<std::unique_ptr<Growth>> Growth::create(Device& device, const GrowthRoom& room) {
-    auto growth = std::make_unique<GpuGrowth>(device, room);
+    std::unique_ptr<Growth> growth(new Growth(device, room));
     Status ready = growth->setUp();
     if (!ready) return ready.failure();
-    return std::unique_ptr<Growth>(std::move(growth));
+    return growth;
 }
 
 }  // namespace espalier

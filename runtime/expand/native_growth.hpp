@@ -9,7 +9,7 @@
 #include <array>
 
 #include "runtime/core/jobs.hpp"
-#include "runtime/expand/growth.hpp"
+#include "runtime/expand/growth_data.hpp"
 #include "shaders/shared/expand_env.h"
 
 namespace espalier {

@@ -40,7 +40,7 @@ struct Lane {
     ChunkGrowth c;
     Machine machine;
     bool live = false;
-    uint32_t stage[kChunkNodes * kStagedWords];
+    uint32_t stage[kChunkNodes * kStagedSample_words];
 };
 
 // Grows the lane's chunk, and those that it takes after, until a stretch is to be walked. False: nothing is left.

@@ -4,11 +4,11 @@
 #include <set>
 
 #include "runtime/core/undo.hpp"
-#include "runtime/expand/gpu_growth.hpp"
+#include "runtime/expand/growth.hpp"
 
 namespace espalier {
 
-Result<bool> GpuGrowth::putIn(const GrowthInputs& inputs) {
+Result<bool> Growth::putIn(const GrowthInputs& inputs) {
     if (inputs.changes->frozen.empty()) return true;
     const std::set<uint64_t> keys(inputs.changes->frozen.begin(), inputs.changes->frozen.end());
     std::set<std::pair<uint64_t, const PlantRecords*>> standing;
@@ -62,7 +62,7 @@ Result<bool> GpuGrowth::putIn(const GrowthInputs& inputs) {
 }
 
 // Unless the regrowth gets done they are taken out again: they are the last of all records.
-Result<GpuGrowth::Regrown> GpuGrowth::regrowWithFrozen(const GrowthInputs& inputs) {
+Result<Growth::Regrown> Growth::regrowWithFrozen(const GrowthInputs& inputs) {
     Undo takeOut([this, view = view_, stats = stats_, frozen = origin_.frozen.size()] {
         origin_.frozen.resize(frozen);
         view_.nodeCount = view.nodeCount;

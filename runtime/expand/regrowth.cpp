@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "runtime/core/check.hpp"
-#include "runtime/expand/gpu_growth.hpp"
+#include "runtime/expand/growth.hpp"
 
 namespace espalier {
 namespace {
@@ -21,7 +21,7 @@ bool sameLimits(const GrowthLimits& a, const GrowthLimits& b) {
 
 }  // namespace
 
-bool GpuGrowth::canRegrow(const GrowthInputs& inputs) const {
+bool Growth::canRegrow(const GrowthInputs& inputs) const {
     if (!inputs.changes || inputs.changes->everything || !whole_ || !sameLimits(inputs.limits, origin_.limits))
         return false;
     // Counts of leaves by cell and directions at joints are sums over the whole plant.
@@ -31,7 +31,7 @@ bool GpuGrowth::canRegrow(const GrowthInputs& inputs) const {
 }
 
 // As much as before, unless that is more than twice what is of use.
-GpuGrowth::AgainBytes GpuGrowth::againBytes(const Links& from) const {
+Growth::AgainBytes Growth::againBytes(const Links& from) const {
     const auto roomOf = [](uint32_t count, uint32_t room, uint32_t capacity) -> uint64_t {
         const uint64_t needed = std::max<uint64_t>(room, count + count / 2ull);
         return needed < capacity / 2 ? needed : std::max(room, capacity);
@@ -42,7 +42,7 @@ GpuGrowth::AgainBytes GpuGrowth::againBytes(const Links& from) const {
             chunks * kLists * 4, chunks / 4 * kChunkNodes * (1 + kResultWords) * 4};
 }
 
-Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) {
+Status Growth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) {
     const Links& from = links_.drawn();
     Links& to = links_.spare();
     const AgainBytes again = againBytes(from);
@@ -69,13 +69,14 @@ Status GpuGrowth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) 
     if (Status queues = makeQueues(inputs); !queues || runsNative(inputs)) return queues;
     if (Status kernels = makeKernels(inputs); !kernels) return kernels;
     using enum GrowthKernel;
-    return kernels_.make({find, start, marchAgain, settle, work, terminalsAgain, apply, thickness, fitAgain}, tablesByAddress_);
+    return kernels_.make({find, start, marchAgain, settle, work, terminalsAgain, apply, thickness, fitAgain},
+                         tablesByAddress_);
 }
 
 // Copies the links, unless native code does as it looks at them, and uploads counters, edits and the seeds that are
 // planted anew as the first wave.
-Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
-                              std::span<const uint32_t> edits) {
+Status Growth::uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
+                           std::span<const uint32_t> edits) {
     const Links& from = links_.drawn();
     const Links& to = links_.spare();
     const Plants& plants = plants_.drawn();
@@ -147,8 +148,8 @@ Status GpuGrowth::uploadAgain(Commands& commands, const GrowthInputs& inputs, co
     return Done{};
 }
 
-Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedChanges& seeds,
-                                        std::span<const uint32_t> edits, ExpandEnv env) {
+Result<AgainState> Growth::findDirty(const GrowthInputs& inputs, const SeedChanges& seeds,
+                                     std::span<const uint32_t> edits, ExpandEnv env) {
     Result<Commands> commands = Commands::begin(device_, "find what changed");
     if (!commands) return commands.failure();
     if (Status ok = uploadAgain(*commands, inputs, seeds, edits); !ok) return ok.failure();
@@ -175,7 +176,7 @@ Result<AgainState> GpuGrowth::findDirty(const GrowthInputs& inputs, const SeedCh
 }
 
 // Everything after the march; does nothing while waves are left, or where it can't be published.
-void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
+void Growth::recordAgain(Commands& commands, ExpandEnv env) {
     const auto groups = spreadGroups();
     {
         Pass pass(commands, "expand terminals");
@@ -196,7 +197,7 @@ void GpuGrowth::recordAgain(Commands& commands, ExpandEnv env) {
     pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
 }
 
-void GpuGrowth::growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
+void Growth::growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
     env.phase = lastWave(noCut(inputs.limits));
     outcome.marchMs = millisecondsOf(
         [&] { env.wave = marchAgainNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_, inputs.watch); });
@@ -207,7 +208,7 @@ void GpuGrowth::growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outco
     state = again_.mappedAs<AgainState>()[0];
 }
 
-Status GpuGrowth::growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
+Status Growth::growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
     const uint32_t most = inputs.limits.maxDepth + 1;
     const uint64_t stateAt = sizeof(GrowStatus) + (inputs.limits.maxDepth + 2ull) * sizeof(Wave);
     uint32_t first = 0;
@@ -244,8 +245,8 @@ Status GpuGrowth::growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Ou
 }
 
 // Publishes, unless there is too little room or too much to grow.
-Result<GpuGrowth::Regrown> GpuGrowth::growAgain(const GrowthInputs& inputs, const ExpandEnv& env, Outcome& outcome,
-                                                AgainState& state) {
+Result<Growth::Regrown> Growth::growAgain(const GrowthInputs& inputs, const ExpandEnv& env, Outcome& outcome,
+                                          AgainState& state) {
     if (runsNative(inputs)) {
         growAgainNative(inputs, env, outcome, state);
     } else if (Status grown = growAgainShaders(inputs, env, outcome, state); !grown) {
@@ -265,8 +266,8 @@ Result<GpuGrowth::Regrown> GpuGrowth::growAgain(const GrowthInputs& inputs, cons
     return whole && nodes <= state.mostNodes && chunks <= state.mostChunks ? Regrown::done : Regrown::tooMuch;
 }
 
-void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state,
-                             Origin&& origin) {
+void Growth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state,
+                          Origin&& origin) {
     origin_ = std::move(origin);
     tablesStand_ = true;
     const GrowStatus& s = outcome.status;
@@ -299,7 +300,7 @@ void GpuGrowth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome,
     stats_.regrowths += 1;
 }
 
-Result<GpuGrowth::Regrown> GpuGrowth::regrow(const GrowthInputs& inputs, const SeedChanges& seeds) {
+Result<Growth::Regrown> Growth::regrow(const GrowthInputs& inputs, const SeedChanges& seeds) {
     if (inputs.changes->none() && !seeds.any && seeds.pruned.empty()) {
         stats_.derived = 0;
         return Regrown::done;

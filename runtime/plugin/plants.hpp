@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "runtime/expand/growth.hpp"
+#include "runtime/expand/growth_data.hpp"
 
 namespace espalier {
 

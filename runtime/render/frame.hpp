@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runtime/render/renderer.hpp"
+#include "runtime/render/draw_data.hpp"
 #include "shaders/render/frame_records.h"
 
 namespace espalier {

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "runtime/gpu/commands.hpp"
-#include "runtime/render/renderer.hpp"
+#include "runtime/render/draw_data.hpp"
 #include "runtime/render/targets.hpp"
 #include "shaders/render/host_records.h"
 

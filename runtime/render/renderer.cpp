@@ -8,7 +8,7 @@
 
 #include "runtime/core/check.hpp"
 #include "runtime/render/host_formats.hpp"
-#include "runtime/render/renderer_impl.hpp"
+#include "runtime/render/renderer.hpp"
 #include "shaders/shared/random.h"
 
 namespace espalier {
@@ -48,14 +48,14 @@ uint32_t rowsAboveHills(const FrameRecord& frame, uint32_t height) {
 
 }  // namespace
 
-Result<std::vector<RoofMesh>> RendererImpl::loadRoofMeshes(TerminalData meshes) {
+Result<std::vector<RoofMesh>> Renderer::loadRoofMeshes(TerminalData meshes) {
     auto made = RoofDraw::create(device_, std::move(meshes), kSceneFormat, kDepthFormat, targets_.samples);
     if (!made) return made.failure();
     roofs_ = std::move(*made);
     return roofs_->bounds();
 }
 
-Status RendererImpl::upload(Commands& commands, const FrameRecord& frame) {
+Status Renderer::upload(Commands& commands, const FrameRecord& frame) {
     now_.frame = &frames_[frameSlot_++ % kFrameSlots];
     commands.barrier(Use::vertex | Use::fragment, Use::transfer);
     if (Status s = commands.upload(*now_.frame, std::as_bytes(std::span(&frame, 1))); !s) return s;
@@ -63,7 +63,7 @@ Status RendererImpl::upload(Commands& commands, const FrameRecord& frame) {
     return Done{};
 }
 
-Status RendererImpl::setProps(TerminalData models, std::vector<PropPlace> places) {
+Status Renderer::setProps(TerminalData models, std::vector<PropPlace> places) {
     Result<Props> made = Props::create(device_, std::move(models), kSceneFormat, kDepthFormat, targets_.samples);
     if (!made) return made.failure();
     if (Status s = made->place(device_, std::move(places)); !s) return s;
@@ -72,13 +72,13 @@ Status RendererImpl::setProps(TerminalData models, std::vector<PropPlace> places
     return Done{};
 }
 
-Status RendererImpl::removeProps() {
+Status Renderer::removeProps() {
     props_.reset();
     ++propsRevision_;
     return Done{};
 }
 
-Models::Drawn RendererImpl::modelsDrawn(const DrawInputs& inputs) const {
+Models::Drawn Renderer::modelsDrawn(const DrawInputs& inputs) const {
     const bool onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
     return {{&now_.scene->model, &now_.scene->modelFoot},
             {&now_.scene->modelMapped, &now_.scene->modelMappedFoot},
@@ -95,7 +95,7 @@ Models::Drawn RendererImpl::modelsDrawn(const DrawInputs& inputs) const {
 
 // All that growth stands among. Of a moving picture a software device begins with what comes before a time stamp, in
 // all threads, while one sets up the rest.
-void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post) {
+void Renderer::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post) {
     std::optional<Pass> part;
     const auto begin = [&](const char* name) {
         if (isQuick(now_.shading)) part.emplace(pass.commands(), name);
@@ -112,8 +112,8 @@ void RendererImpl::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, co
 }
 
 // What hides growth. Where the picture is ours and shaded, that is depths only: what growth hides isn't shaded at all.
-Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target,
-                                const PostPush& post) {
+Status Renderer::drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target,
+                            const PostPush& post) {
     now_.ahead = !now_.hosted && now_.shading != Shading::counting;
     if (now_.ahead) {
         DrawTargets depths;
@@ -140,7 +140,7 @@ Status RendererImpl::drawModels(Commands& commands, const DrawInputs& inputs, co
     return Done{};
 }
 
-EmitInputs RendererImpl::emitInputs(const DrawInputs& inputs) const {
+EmitInputs Renderer::emitInputs(const DrawInputs& inputs) const {
     EmitInputs given{inputs.growth, inputs.surfaces, inputs.surfacesRevision};
     if (!models_.empty()) models_.bounds(given.low, given.high);
     return given;
@@ -148,7 +148,7 @@ EmitInputs RendererImpl::emitInputs(const DrawInputs& inputs) const {
 
 // Of what hides growth: another one where tiles may say something else. A host's scene or a level that fades hides
 // something else in each frame.
-uint64_t RendererImpl::sceneOf(const DrawInputs& inputs) {
+uint64_t Renderer::sceneOf(const DrawInputs& inputs) {
     ++sceneNumber_;
     if (now_.hosted || models_.fading() > 0) return sceneNumber_ << 32;
     const Look& look = inputs.look;
@@ -156,7 +156,7 @@ uint64_t RendererImpl::sceneOf(const DrawInputs& inputs) {
     return combineKeys(mix64(standing()), ground + (uint64_t(look.view) << 40) + (uint64_t(look.quick) << 33));
 }
 
-Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame) {
+Status Renderer::cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame) {
     EmitView view = perspectiveView(frame.viewProjection, frame.eye, frame.pixelScale, inputs.look.lodPixels);
     view.viewProjection = frame.viewProjection;
     view.width = targets_.width;
@@ -175,7 +175,7 @@ Status RendererImpl::cullGrowth(Commands& commands, const DrawInputs& inputs, co
 }
 
 // Hills only where they may be: software devices look for them at each pixel.
-void RendererImpl::drawSky(DrawPass& pass, const FrameRecord& frame, const PostPush& post) {
+void Renderer::drawSky(DrawPass& pass, const FrameRecord& frame, const PostPush& post) {
     const uint32_t width = targets_.width, height = targets_.height;
     const uint32_t above = post.ground != 0 ? rowsAboveHills(frame, height) : height;
     for (const bool hills : {false, true}) {
@@ -186,8 +186,8 @@ void RendererImpl::drawSky(DrawPass& pass, const FrameRecord& frame, const PostP
     }
 }
 
-void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame,
-                              const PostPush& post) {
+void Renderer::drawGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame,
+                          const PostPush& post) {
     commands.transition(targets_.color, ImageState::colorTarget, now_.ahead);
     commands.transition(targets_.depth, ImageState::depthTarget);
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
@@ -210,7 +210,7 @@ void RendererImpl::drawGrowth(Commands& commands, const DrawInputs& inputs, cons
     }
 }
 
-void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
+void Renderer::drawOcclusion(Commands& commands, const PostPush& push) {
     const VkExtent2D extent = targets_.distance.extent();
     commands.transition(targets_.depth, ImageState::sampled);
     commands.transition(targets_.distance, ImageState::colorTarget, true);
@@ -227,7 +227,7 @@ void RendererImpl::drawOcclusion(Commands& commands, const PostPush& push) {
     commands.transition(targets_.open, ImageState::sampled);
 }
 
-Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostPush push) {
+Status Renderer::resolve(Commands& commands, const DrawTarget& target, PostPush push) {
     const bool intoOwn = !target.image || now_.hosted;
     const VkFormat format = intoOwn ? kOwnFormat : target.format;
     push.encode = takesLinear(format) ? 0 : 1;
@@ -253,14 +253,14 @@ Status RendererImpl::resolve(Commands& commands, const DrawTarget& target, PostP
     return now_.hosted ? merge_->end(commands, targets_) : Status(Done{});
 }
 
-Status RendererImpl::draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
+Status Renderer::draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
     Status drawn = drawFrame(commands, inputs, target);
     if (!drawn) forget();
     return drawn;
 }
 
 // Nor are images where the recording would have left them.
-void RendererImpl::forget() {
+void Renderer::forget() {
     emit_.forget();
     if (props_) props_->forget();
     merge_.reset();
@@ -271,7 +271,7 @@ void RendererImpl::forget() {
     wide_.clear();
 }
 
-Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
+Status Renderer::drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
     require(target.width > 0 && target.height > 0 && target.width <= kMaxFrameSide && target.height <= kMaxFrameSide,
             "a picture is 1 to 16384 pixels wide and high");
     now_ = {};
@@ -316,7 +316,7 @@ Status RendererImpl::drawFrame(Commands& commands, const DrawInputs& inputs, con
     return resolve(commands, target, push);
 }
 
-Result<std::vector<uint8_t>> RendererImpl::readPixels() {
+Result<std::vector<uint8_t>> Renderer::readPixels() {
     if (!targets_.own) return Failure("picture", "nothing has been drawn into the renderer's own image yet");
     Result<std::vector<std::byte>> bytes = readImage(device_, targets_.own);
     if (!bytes) return bytes.failure();
@@ -324,7 +324,7 @@ Result<std::vector<uint8_t>> RendererImpl::readPixels() {
     return std::vector<uint8_t>(first, first + bytes->size());
 }
 
-RenderStats RendererImpl::stats() const {
+RenderStats Renderer::stats() const {
     RenderStats stats;
     if (now_.grows) stats.emit = emit_.stats();
     if (now_.roofed) stats.roofs = roofs_->stats();

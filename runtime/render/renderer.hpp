@@ -1,141 +1,164 @@
 #pragma once
 
 // Drawing: surfaces, bark and leaves with sun, shadow, sky and tone mapping, into an image of ours or a host's.
+// renderer_setup.cpp makes what is needed, renderer.cpp draws, renderer_terminals.cpp what has grown,
+// renderer_shadows.cpp shadows.
 
-#include <filesystem>
-#include <memory>
+#include <array>
+#include <map>
+#include <tuple>
 
-#include "runtime/emit/emit.hpp"
-#include "runtime/render/ground.hpp"
-#include "runtime/render/props.hpp"
-#include "runtime/render/roof_draw.hpp"
-#include "runtime/surface/surface.hpp"
-#include "shaders/paint/brush.h"
+#include "runtime/render/depth_tiles.hpp"
+#include "runtime/render/frame.hpp"
+#include "runtime/render/host_merge.hpp"
+#include "runtime/render/models.hpp"
+#include "runtime/render/shadow_state.hpp"
+#include "runtime/render/targets.hpp"
 
 namespace espalier {
 
-inline constexpr uint32_t kMaxFrameSide = 16384;  // pixels
-
-struct Camera {
-    glm::vec3 eye{0, 1, 5}, target{0, 1, 0}, up{0, 1, 0};
-    float fovY = 0.7f;        // radians
-    float nearPlane = 0.05f;  // metres; the far plane is at infinity
-    glm::vec2 shift{0};       // moves the picture right and up, in halves of the frame, as a shift lens does
-};
-
-enum class ViewMode : uint32_t { shaded = 0, charts = 1, normals = 2, lod = 3, layer = 4, depth = 5, overdraw = 6 };
-
-inline constexpr BrushLimits kNoLimits{-1e30f, 1e30f, 1, -1e30f, 1e30f, 1};
-
-// Colours are linear.
-struct Look {
-    glm::vec3 sunDirection{0.45f, 0.62f, 0.64f};  // towards the sun
-    glm::vec3 sunColor{2.9f, 2.5f, 1.95f};
-    glm::vec3 skyColor{0.72f, 0.84f, 1.02f};
-    glm::vec3 groundColor{0.44f, 0.39f, 0.28f};
-    float exposure = 0;                         // stops
-    glm::vec3 background{0.17f, 0.36f, 0.72f};  // at the zenith
-    glm::vec3 horizon{0.66f, 0.77f, 0.88f};
-    bool shadows = true;
-    bool shadowsLag = false;  // while growth or houses change in every frame, shadows may follow late and coarsely; in
-                              // quick pictures, too
-    bool quick = false;       // on a software device fewer samples and twigs, for pictures that move
-    ViewMode view = ViewMode::shaded;
-    // For ViewMode::layer: index into DrawInputs::layers' 16 a surface, or colourLayers; kNoIndex: only roofs have it.
-    uint32_t layer = 0;
-    float layerOpacity = 1;
-    BrushLimits limits = kNoLimits;  // that layer is hatched beyond them
-    uint32_t level = 0;              // for ViewMode::charts
-    float lodPixels = 1;             // error allowed when choosing LOD, pixels
-    float leafPixels = 8;  // leaves of at least so many are all drawn, of smaller ones fewer and larger; beyond 8 also
-                           // fewer twigs
-};
-
-struct DrawInputs {
-    GrowthView growth;                // nodeCount 0: nothing grows
-    SurfaceBuf surfaces{};            // device address of the SurfaceRef table; 0: no growth and no chart view
-    uint64_t surfacesRevision = 0;    // another one when that table says something else
-    LayerBuf layers{};                // surfaces * kMaxLayers; 0: no layer view
-    const RoofView* roofs = nullptr;  // none; needs loadRoofMeshes()
-    GroundLook ground;
-    Camera camera;
-    Look look;
-};
-
-// What a host has drawn already: growth is drawn into it, hidden by what lies nearer. The depth buffer holds
-// atInfinity + perNearness / distance along the view; it and the picture can be sampled and have one sample a pixel.
-// Both are in colorTarget and depthTarget, and stay there.
-struct HostScene {
-    VkImage depth = VK_NULL_HANDLE;  // null: there is none, the whole picture is ours
-    VkFormat depthFormat = VK_FORMAT_UNDEFINED;
-    float atInfinity = 0, perNearness = 0;
-    bool models = false;  // draw the surfaces too
-};
-
-// Where to draw. image null: into the renderer's own image. Otherwise the image may be in any layout, its contents
-// are lost but with a host's scene, and it is left in VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL; format: one of
-// EspDrawDef::colourFormat's.
-struct DrawTarget {
-    uint32_t width = 1280, height = 720;  // 1 to kMaxFrameSide
-    VkImage image = VK_NULL_HANDLE;
-    VkImageView view = VK_NULL_HANDLE;
-    VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
-    HostScene host{};  // only with an image; not with ViewMode::overdraw
-};
-
-struct RenderStats {
-    EmitStats emit;
-    RoofDrawStats roofs;
-    uint64_t modelTriangles = 0;
-    uint32_t modelsFading = 0;                     // models between two levels of detail
-    uint32_t shadowsWhole = 0, shadowsPartly = 0;  // how often the near shadow map was redrawn, all or what had changed
-    uint32_t shadowsTaken = 0;                     // and some of that, in strokes
-    bool shadowsBehind = false;                    // in the last picture
-    double emitMs = 0, drawMs = 0;                 // GPU time of the last finished frame
-};
+constexpr uint32_t kFrameSlots = 8;  // frame records, taken in turn
 
 class Renderer {
   public:
     static Result<std::unique_ptr<Renderer>> create(Device& device, TerminalData terminals);
     static Result<std::unique_ptr<Renderer>> create(Device& device, const std::filesystem::path& terminals);
-    virtual ~Renderer() = default;
 
     // The drawn mesh of surface instance `index`; uploads and waits. groundOnly: something else draws it; only views of
     // charts and of a layer show it.
-    virtual Status setSurface(uint32_t index, const SurfaceData& data, const glm::mat4& toWorld,
-                              bool groundOnly = false) = 0;
-    virtual void removeSurface(uint32_t index) = 0;
+    Status setSurface(uint32_t index, const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly = false) {
+        return models_.set(device_, index, data, toWorld, groundOnly);
+    }
+    void removeSurface(uint32_t index) { models_.remove(index); }
     // Draws a surface that was set elsewhere.
-    virtual void placeSurface(uint32_t index, const glm::mat4& toWorld) = 0;
+    void placeSurface(uint32_t index, const glm::mat4& toWorld) { models_.place(index, toWorld); }
 
     // Meshes that roofs are drawn with, kind 0 being none; returns their bounds. Once, before the first roofs.
-    virtual Result<std::vector<RoofMesh>> loadRoofMeshes(TerminalData meshes) = 0;
+    Result<std::vector<RoofMesh>> loadRoofMeshes(TerminalData meshes);
 
     // Models of props, their variants sorted by kind, and where they stand; in place of all that were. Waits.
-    virtual Status setProps(TerminalData models, std::vector<PropPlace> places) = 0;
-    virtual Status removeProps() = 0;
+    Status setProps(TerminalData models, std::vector<PropPlace> places);
+    Status removeProps();
     // What lies on the ground that is drawn; without texels: nothing.
-    virtual Status setSite(const SiteMap& map) = 0;
+    Status setSite(const SiteMap& map) { return ground_.setSite(device_, map); }
 
     // Records a frame. The shadow map is redrawn only if the growth's revision, a surface or the sun has changed; after
     // edits of growth only in tiles that they reach. If it may lag: from the third frame in a row on in which growth
     // has changed, at most eight of these tiles in every second one, and all when it has come to rest; where all growth
     // is new, in every eighth frame, until then with fewer and larger leaves.
-    virtual Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) = 0;
+    Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target);
 
     // What the last draw has recorded didn't run: the next relies on none of it.
-    virtual void forget() = 0;
+    void forget();
 
     // Drops what only what comes would use; what was drawn last stays as it is. growth: that stands.
-    virtual void trim(const GrowthView& growth) = 0;
+    void trim(const GrowthView& growth) { emit_.trim(growth); }
 
     // The last frame drawn into the renderer's own image: RGBA, sRGB, rows top to bottom. Waits for it.
-    virtual Result<std::vector<uint8_t>> readPixels() = 0;
+    Result<std::vector<uint8_t>> readPixels();
 
     // Counts of the last frame that has finished.
-    virtual RenderStats stats() const = 0;
+    RenderStats stats() const;
 
-    virtual Result<EmittedTriangles> materialise(const EmitInputs& inputs) = 0;
+    // Bound by itself, whatever bounds pictures bind growth in: triangles come in an order of their own.
+    Result<EmittedTriangles> materialise(const EmitInputs& inputs) { return emit_.materialise(inputs); }
+
+  private:
+    explicit Renderer(Device& device) : device_(device) {}
+    Status setUp(TerminalData data);
+    Status makePrograms();
+    Status drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target);
+    // The programs that draw what is lit: one set for each kind of shading, one for the view that counts fragments.
+    struct ScenePrograms {
+        Program model, modelFoot, modelMapped, modelMappedFoot, tint, glass, bark, barkSmall, leaf, leafSmall;
+        struct Lit {
+            Program light, draw;
+        };
+        Lit litBark, litLeaves[2];  // of quick ones (lit.glsl): leaves of three vertices, and of four, if there are any
+    };
+    Status makeScene(ScenePrograms& programs, Shading shading) const;
+    // Those of materials that aren't plain, of which most scenes have none.
+    Status makeRareScene(ScenePrograms& programs, Shading shading) const;
+    Status makeSceneProgram(Program& program, const char* name, const char* vertex, const char* fragment,
+                            std::vector<SpecConstant> constants, Blend blend) const;
+    Status pickScene(ViewMode shown, bool quick);
+    Result<const Program*> resolveProgram(VkFormat format);
+    // Uploads the record to now_.frame.
+    Status upload(Commands& commands, const FrameRecord& frame);
+    // renderer_shadows.cpp: redraws shadows that aren't up to date, and tells the frame where they are.
+    Status keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame);
+    ShadowScene shadowScene(const DrawInputs& inputs, glm::vec3 sun, glm::vec4 sphere) const;
+    Status updateNearShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, const ShadowScene& now);
+    Status drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun);
+    // The tiles that edits have changed since, or so many of them.
+    Status redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, uint32_t mostTiles);
+    void drawStanding(DrawPass& pass, const SunView& sun, float error);
+    Status makeStanding();
+    // All that stands but growth, into the map's right half; the whole map is cleared.
+    Status drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun);
+    Status aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
+                          float radius, FrameRecord& frame);
+    Models::Drawn modelsDrawn(const DrawInputs& inputs) const;
+    void drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post);
+    Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
+    // A number for the models and props of this recording.
+    uint64_t standing() const { return models_.revision() + (now_.furnished ? propsRevision_ << 32 : 0); }
+    EmitInputs emitInputs(const DrawInputs& inputs) const;
+    uint64_t sceneOf(const DrawInputs& inputs);
+    Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
+    void drawGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame, const PostPush& post);
+    void drawSky(DrawPass& pass, const FrameRecord& frame, const PostPush& post);
+    Status lightTerminals(Commands& commands);
+    // Whether what the bucket draws has few enough vertices, and pixels, to be lit ahead; whether it has been.
+    bool canBeLit(uint32_t bucket) const;
+    bool isLit(uint32_t bucket) const { return now_.lit && canBeLit(bucket); }
+    ScenePrograms::Lit& litPrograms(ScenePrograms& programs, uint32_t bucket) const;
+    Status makeLit(ScenePrograms& programs) const;
+    void drawTerminals(DrawPass& pass, bool depthOnly);
+    void drawOcclusion(Commands& commands, const PostPush& push);
+    Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
+
+    Device& device_;
+    Terminals terminals_;
+    Emit emit_;
+    std::unique_ptr<RoofDraw> roofs_;
+    std::unique_ptr<Props> props_;
+    std::unique_ptr<HostMerge> merge_;  // made when a host first has a scene
+    Models models_;
+    Ground ground_;
+    Targets targets_;
+    DepthTiles depthTiles_;
+    Image shadowMap_, standing_;  // the near half without growth; made when something grows
+    Sampler shadowSampler_, textureSampler_, quickSampler_, plainSampler_, pointSampler_;
+    ScenePrograms scenes_[kShadings];  // each made when first asked for
+    Program modelAhead_, modelAheadFading_, modelDepth_, modelCutDepth_, barkDepth_, leafDepth_, leafCutDepth_,
+        distance_, occlusion_, shadowRestore_;
+    Program sky_[2];                                       // without and with hills
+    using ResolveKind = std::tuple<VkFormat, bool, bool>;  // format, whether the view counts, whether it is quick
+    std::map<ResolveKind, Program> resolves_;
+    std::array<bool, kMaxBuckets> small_{};  // buckets that are lit at their vertices
+    Buffer litTerminals_;                    // lit.glsl
+    TexelView litTexels_;                    // of it; after it
+    std::array<Buffer, kFrameSlots> frames_;
+    uint32_t frameSlot_ = 0;
+    NearShadows near_;
+    WideShadows wide_;
+    uint64_t sceneNumber_ = 0, propsRevision_ = 0;
+    bool quickBefore_ = false;  // the picture before was
+    // What the recording that goes on, or the last one, is about: none of it outlives the next one's beginning.
+    struct {
+        bool grows = false, roofed = false, furnished = false;  // it draws growth, roofs, props
+        bool hosted = false;                                    // into a host's scene
+        Shading shading = Shading::full;
+        ScenePrograms* scene = nullptr;
+        bool plain = false;               // growth and props are drawn as in the shaded view
+        bool lit = false;                 // what has few vertices has been lit ahead
+        bool ahead = false;               // models' depths went ahead, they are shaded after growth
+        bool glass = false;               // what is blended is drawn last
+        float meadowLevel = 0, unit = 1;  // where grass grows over models
+        const Buffer* frame = nullptr;
+        bool shadowsBehind = false;  // what this picture shows
+    } now_;
 };
 
 }  // namespace espalier

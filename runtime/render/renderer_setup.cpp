@@ -1,6 +1,6 @@
 // Enters: the terminals. Leaves: programs, samplers and buffers of the renderer.
 #include "runtime/gpu/color_texture.hpp"
-#include "runtime/render/renderer_impl.hpp"
+#include "runtime/render/renderer.hpp"
 
 namespace espalier {
 namespace {
@@ -9,7 +9,7 @@ constexpr uint32_t kSmallIndices = 12;  // leaves of no more are for few pixels,
 
 }  // namespace
 
-Status RendererImpl::makePrograms() {
+Status Renderer::makePrograms() {
     const bool one = targets_.samples == 1;
     auto shadow = [&](Program& program, const char* name, const char* vertex, const char* fragment) -> Status {
         GraphicsDesc desc;
@@ -41,7 +41,7 @@ Status RendererImpl::makePrograms() {
     skyDesc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
     skyDesc.depthWrite = false;
     for (uint32_t hills : {0u, 1u}) {
-        skyDesc.options.constants = {{kRest, hills}};
+        skyDesc.options.constants = {{kConstantRest, hills}};
         if (Status made = assign(sky_[hills], Program::graphics(device_, skyDesc)); !made) return made.failure();
     }
     GraphicsDesc restore;
@@ -68,8 +68,8 @@ Status RendererImpl::makePrograms() {
          post(occlusion_, "render/occlusion.frag", kOpenFormat)});
 }
 
-Status RendererImpl::makeSceneProgram(Program& program, const char* name, const char* vertex, const char* fragment,
-                                      std::vector<SpecConstant> constants, Blend blend) const {
+Status Renderer::makeSceneProgram(Program& program, const char* name, const char* vertex, const char* fragment,
+                                  std::vector<SpecConstant> constants, Blend blend) const {
     GraphicsDesc desc;
     desc.name = name;
     desc.vertex = vertex;
@@ -86,7 +86,7 @@ Status RendererImpl::makeSceneProgram(Program& program, const char* name, const 
     return assign(program, Program::graphics(device_, desc));
 }
 
-Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading) const {
+Status Renderer::makeScene(ScenePrograms& programs, Shading shading) const {
     if (programs.model) return Done{};
     if (isQuick(shading))
         if (Status lit = makeLit(programs); !lit) return lit;
@@ -113,7 +113,7 @@ Status RendererImpl::makeScene(ScenePrograms& programs, Shading shading) const {
     return Done{};
 }
 
-Status RendererImpl::makeRareScene(ScenePrograms& programs, Shading shading) const {
+Status Renderer::makeRareScene(ScenePrograms& programs, Shading shading) const {
     const auto make = [&](Program& program, const char* name, const char* fragment, bool rest, Blend blend) -> Status {
         if (program) return Done{};
         return makeSceneProgram(program, name, "render/model_mapped.vert", fragment,
@@ -132,7 +132,7 @@ Status RendererImpl::makeRareScene(ScenePrograms& programs, Shading shading) con
     return make(programs.glass, "glass", "render/model_glass.frag", false, Blend::over);
 }
 
-Status RendererImpl::pickScene(ViewMode shown, bool quick) {
+Status Renderer::pickScene(ViewMode shown, bool quick) {
     const bool explained = shown != ViewMode::shaded, cheap = quick && device_.info().cpu;
     now_.plain = !explained || shown == ViewMode::layer;
     if (shown == ViewMode::overdraw)
@@ -147,20 +147,20 @@ Status RendererImpl::pickScene(ViewMode shown, bool quick) {
     return makeRareScene(*now_.scene, now_.shading);
 }
 
-Result<const Program*> RendererImpl::resolveProgram(VkFormat format) {
+Result<const Program*> Renderer::resolveProgram(VkFormat format) {
     const bool counts = now_.shading == Shading::counting;
     const ResolveKind kind{format, counts, isQuick(now_.shading)};
     if (auto it = resolves_.find(kind); it != resolves_.end()) return &it->second;
     const char* fragment = targets_.samples == 1 ? "render/resolve_single.frag" : "render/resolve.frag";
     GraphicsDesc desc = fullscreen(fragment);
     desc.colors = {format};
-    desc.options.constants = {{kExplains, counts ? 1u : 0u}, {kQuick, isQuick(now_.shading) ? 1u : 0u}};
+    desc.options.constants = {{kConstantExplains, counts ? 1u : 0u}, {kConstantQuick, isQuick(now_.shading) ? 1u : 0u}};
     Result<Program> made = Program::graphics(device_, desc);
     if (!made) return made.failure();
     return &(resolves_[kind] = std::move(*made));
 }
 
-Status RendererImpl::setUp(TerminalData data) {
+Status Renderer::setUp(TerminalData data) {
     // Four samples make a frame three times as dear on a CPU; there edges are smoothed when all is drawn.
     targets_.samples = device_.info().cpu ? 1 : 4;
     if (Status made = assign(terminals_, Terminals::create(device_, std::move(data))); !made) return made.failure();
@@ -213,9 +213,9 @@ Status RendererImpl::setUp(TerminalData data) {
 }
 
 Result<std::unique_ptr<Renderer>> Renderer::create(Device& device, TerminalData terminals) {
-    auto renderer = std::make_unique<RendererImpl>(device);
+    std::unique_ptr<Renderer> renderer(new Renderer(device));
     if (Status s = renderer->setUp(std::move(terminals)); !s) return s.failure();
-    return std::unique_ptr<Renderer>(std::move(renderer));
+    return renderer;
 }
 
 Result<std::unique_ptr<Renderer>> Renderer::create(Device& device, const std::filesystem::path& terminals) {

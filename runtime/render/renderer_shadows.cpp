@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/render/renderer_impl.hpp"
+#include "runtime/render/renderer.hpp"
 
 namespace espalier {
 namespace {
@@ -38,7 +38,7 @@ FrameRecord shadowFrame(const DrawInputs& inputs, const SunView& sun) {
 
 }  // namespace
 
-Status RendererImpl::makeStanding() {
+Status Renderer::makeStanding() {
     if (standing_) return Done{};
     ImageDesc desc{
         .name = "shadows without growth", .format = kDepthFormat, .width = kShadowSize, .height = kShadowSize};
@@ -47,14 +47,14 @@ Status RendererImpl::makeStanding() {
 }
 
 // error: times what is allowed otherwise.
-void RendererImpl::drawStanding(DrawPass& pass, const SunView& sun, float error) {
+void Renderer::drawStanding(DrawPass& pass, const SunView& sun, float error) {
     models_.drawDepth(pass, modelDepth_, modelCutDepth_, *now_.frame,
                       error * kShadowModelTexels * sun.width / kShadowSize);
     if (now_.roofed) roofs_->draw(pass, *now_.frame, nullptr, nullptr);
     if (now_.furnished) props_->drawDepth(pass, *now_.frame);
 }
 
-Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
+Status Renderer::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
     near_.clear();
     const bool coarse = near_.coarse();
     if (Status s = upload(commands, shadowFrame(inputs, sun)); !s) return s;
@@ -91,8 +91,7 @@ Status RendererImpl::drawShadows(Commands& commands, const DrawInputs& inputs, c
 }
 
 // What reaches tiles that haven't changed leaves there the depths that it left before.
-Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun,
-                                   uint32_t mostTiles) {
+Status Renderer::redrawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun, uint32_t mostTiles) {
     if (Status s = upload(commands, shadowFrame(inputs, sun)); !s) return s;
     const EmitView changes = emit_.takeChanges(commands, emitInputs(inputs), mostTiles);
     if (Status s = emit_.cull(commands, emitInputs(inputs), changes, "shadow emit", false); !s) return s;
@@ -110,7 +109,7 @@ Status RendererImpl::redrawShadows(Commands& commands, const DrawInputs& inputs,
     return Done{};
 }
 
-Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
+Status Renderer::drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
     if (Status s = upload(commands, shadowFrame(inputs, sun)); !s) return s;
     const EmitView view = parallelView(sun.toClip, kShadowSize / sun.width, kShadowLodPixels);
     if (now_.roofed)
@@ -131,14 +130,14 @@ Status RendererImpl::drawWideShadows(Commands& commands, const DrawInputs& input
     return Done{};
 }
 
-ShadowScene RendererImpl::shadowScene(const DrawInputs& inputs, glm::vec3 sun, glm::vec4 sphere) const {
+ShadowScene Renderer::shadowScene(const DrawInputs& inputs, glm::vec3 sun, glm::vec4 sphere) const {
     const GrowthView& growth = inputs.growth;
     return {growth.revision,  standing(), now_.roofed ? inputs.roofs->revision : 0, sun, growth.nodeCount,
             growth.leafCount, sphere};
 }
 
-Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
-                                    float radius, FrameRecord& frame) {
+Status Renderer::aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
+                                float radius, FrameRecord& frame) {
     ShadowScene now = shadowScene(inputs, frame.sunDirection, glm::vec4(center, radius));
     now.growth = now.nodes = now.leaves = 0;  // none of it is in there
     if (wide_.begin(now, inputs.look.shadowsLag)) {
@@ -157,7 +156,7 @@ Status RendererImpl::aimWideShadows(Commands& commands, const DrawInputs& inputs
     return Done{};
 }
 
-Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame) {
+Status Renderer::keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame) {
     glm::vec3 low, high;
     models_.bounds(low, high);
     if (now_.roofed) {
@@ -191,8 +190,8 @@ Status RendererImpl::keepShadows(Commands& commands, const DrawInputs& inputs, F
     return updateNearShadows(commands, inputs, sun, now);
 }
 
-Status RendererImpl::updateNearShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun,
-                                       const ShadowScene& now) {
+Status Renderer::updateNearShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun,
+                                   const ShadowScene& now) {
     const Look& look = inputs.look;
     if (!near_.begin(now, {look.shadows, look.shadowsLag, look.quick})) {
         now_.shadowsBehind |= near_.behind();

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "runtime/gpu/color_texture.hpp"
-#include "runtime/render/renderer_impl.hpp"
+#include "runtime/render/renderer.hpp"
 
 namespace espalier {
 namespace {
@@ -24,25 +24,25 @@ TerminalPush pushOf(const Terminals& terminals, uint32_t b) {
 
 }  // namespace
 
-bool RendererImpl::canBeLit(uint32_t bucket) const {
+bool Renderer::canBeLit(uint32_t bucket) const {
     const TerminalTable& table = terminals_.table();
     const uint32_t corners = table.buckets[bucket].vertexCount;
     return small_[bucket] && corners <= kLitVertices && corners >= (bucket < table.barkBuckets ? kRibbonVertices : 3u);
 }
 
-RendererImpl::ScenePrograms::Lit& RendererImpl::litPrograms(ScenePrograms& programs, uint32_t bucket) const {
+Renderer::ScenePrograms::Lit& Renderer::litPrograms(ScenePrograms& programs, uint32_t bucket) const {
     const TerminalTable& table = terminals_.table();
     return bucket < table.barkBuckets ? programs.litBark : programs.litLeaves[table.buckets[bucket].vertexCount - 3];
 }
 
-Status RendererImpl::makeLit(ScenePrograms& programs) const {
+Status Renderer::makeLit(ScenePrograms& programs) const {
     const TerminalTable& table = terminals_.table();
     for (uint32_t b = 0; b < table.buckets.size(); ++b) {
         if (!canBeLit(b) || litPrograms(programs, b).light) continue;
         const bool bark = b < table.barkBuckets;
         ScenePrograms::Lit& lit = litPrograms(programs, b);
         std::vector<SpecConstant> constants = constantsOf(Shading::quick, holdsRoots(device_));
-        constants.push_back({kCorners, table.buckets[b].vertexCount});
+        constants.push_back({kConstantCorners, table.buckets[b].vertexCount});
         const Status drawn = bark ? makeSceneProgram(lit.draw, "lit bark", "render/bark_lit.vert",
                                                      "render/bark_small_single.frag", constants, Blend::none)
                                   : makeSceneProgram(lit.draw, "lit leaf", "render/leaf_lit.vert",
@@ -58,7 +58,7 @@ Status RendererImpl::makeLit(ScenePrograms& programs) const {
 
 // In moving pictures on software devices, which shade vertices in one thread, what has three or four vertices is lit
 // before it is drawn, in all threads, and once instead of at each vertex.
-Status RendererImpl::lightTerminals(Commands& commands) {
+Status Renderer::lightTerminals(Commands& commands) {
     const EmitState* known = emit_.knownState();
     const uint64_t bytes = known ? std::max(known->spanCount + known->leafCount, 1u) * 8ull * kLitWords : 0;
     const DeviceInfo& info = device_.info();
@@ -86,7 +86,7 @@ Status RendererImpl::lightTerminals(Commands& commands) {
     return Done{};
 }
 
-void RendererImpl::drawTerminals(DrawPass& pass, bool depthOnly) {
+void Renderer::drawTerminals(DrawPass& pass, bool depthOnly) {
     const TerminalTable& table = terminals_.table();
     const EmitState* known = emit_.knownState();
     pass.setIndices(terminals_.batches());

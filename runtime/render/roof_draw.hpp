@@ -4,7 +4,7 @@
 
 #include "runtime/emit/emit.hpp"
 #include "runtime/render/shading.hpp"
-#include "runtime/roof_growth/roof_growth.hpp"
+#include "runtime/roof_growth/roof_data.hpp"
 #include "shaders/render/roof_draw_records.h"
 
 namespace espalier {

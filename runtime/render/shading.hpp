@@ -31,10 +31,10 @@ inline bool isAskedOf(const Device& device, Shading shading) {
 
 inline std::vector<SpecConstant> constantsOf(Shading shading, bool rooted = false, bool rest = false) {
     const bool explains = shading != Shading::full && shading != Shading::quick;
-    return {{kExplains, explains ? 1u : 0u},
-            {kRooted, rooted ? 1u : 0u},
-            {kQuick, isQuick(shading) ? 1u : 0u},
-            {kRest, rest ? 1u : 0u}};
+    return {{kConstantExplains, explains ? 1u : 0u},
+            {kConstantRooted, rooted ? 1u : 0u},
+            {kConstantQuick, isQuick(shading) ? 1u : 0u},
+            {kConstantRest, rest ? 1u : 0u}};
 }
 
 // A triangle over all of a picture, in front of whatever is there.

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "runtime/core/jobs.hpp"
-#include "runtime/roof_growth/roof_growth.hpp"
+#include "runtime/roof_growth/roof_data.hpp"
 #include "shaders/shared/roof_expand.h"
 
 namespace espalier {

@@ -4,8 +4,8 @@
 // records in the order of its queue, behind what still draws the old ones.
 #include <chrono>
 
-#include "runtime/roof_growth/gpu_roofs.hpp"
 #include "runtime/roof_growth/house_tables.hpp"
+#include "runtime/roof_growth/roof_growth.hpp"
 
 namespace espalier {
 namespace {
@@ -31,7 +31,7 @@ void renumber(RoofRecords& made, const HouseTables& few, const RoofStatus& last,
 
 }  // namespace
 
-Result<GpuRoofs::Outcome> GpuRoofs::growFew(const RoofInputs& inputs, std::span<const uint32_t> houses) {
+Result<RoofGrowth::Outcome> RoofGrowth::growFew(const RoofInputs& inputs, std::span<const uint32_t> houses) {
     const auto begin = std::chrono::steady_clock::now();
     HouseTables few(*inputs.town, houses);
     if (few.tables.regions.empty()) few.tables.regions.emplace_back(), few.regions.push_back(0);  // kernels read one

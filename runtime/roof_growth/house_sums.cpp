@@ -1,12 +1,12 @@
 // How many cells each house has drawn, and their hash. In: grids and their rows' runs. Out: the town's sums without
 // what has been replaced. Kernels count all that they write; what a house had before it grew anew is known only from
 // its records, which are read back once after all houses have grown, when the first of them grows alone.
-#include "runtime/roof_growth/gpu_roofs.hpp"
+#include "runtime/roof_growth/roof_growth.hpp"
 #include "shaders/shared/roof_expand.h"
 
 namespace espalier {
 
-GpuRoofs::Sums GpuRoofs::sumsOf(const RoofGrid& grid, std::span<const RoofRun> runs) const {
+RoofGrowth::Sums RoofGrowth::sumsOf(const RoofGrid& grid, std::span<const RoofRun> runs) const {
     const u64 hash = hashOfGrid(grid, plots_[grid.house & 0xFFFFFFu].at);
     Sums sums{0, 0, 0, {uint32_t(hash), uint32_t(hash >> 32)}};
     if (grid.firstRow == kNoIndex) return sums.touched = sums.whole = sums.terminals = 1, sums;
@@ -17,7 +17,7 @@ GpuRoofs::Sums GpuRoofs::sumsOf(const RoofGrid& grid, std::span<const RoofRun> r
     return sums;
 }
 
-Status GpuRoofs::countHouses() {
+Status RoofGrowth::countHouses() {
     if (!houseSums_.empty()) return Done{};
     const Set& set = sets_[front_];
     auto grids = readVector<RoofGrid>(device_, set.grids, 0, last_.grids);
@@ -29,7 +29,7 @@ Status GpuRoofs::countHouses() {
     return Done{};
 }
 
-Status GpuRoofs::recount(std::span<const uint32_t> houses, Outcome& outcome) {
+Status RoofGrowth::recount(std::span<const uint32_t> houses, Outcome& outcome) {
     if (outcome.grids.empty() && outcome.status.grids > last_.grids) {  // they grew on the GPU
         const Set& set = sets_[front_];
         auto grids = readVector<RoofGrid>(device_, set.grids, last_.grids, outcome.status.grids - last_.grids);

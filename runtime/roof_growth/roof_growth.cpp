@@ -9,8 +9,8 @@
 
 #include "runtime/core/check.hpp"
 #include "runtime/core/undo.hpp"
-#include "runtime/roof_growth/gpu_roofs.hpp"
 #include "runtime/roof_growth/house_tables.hpp"
+#include "runtime/roof_growth/roof_growth.hpp"
 #include "shaders/shared/roof_tables.h"
 
 namespace espalier {
@@ -28,12 +28,12 @@ constexpr uint64_t kReadsAt = sizeof(RoofStatus) + kRoofWaves * sizeof(RoofWave)
 
 }  // namespace
 
-Status GpuRoofs::setUp() {
+Status RoofGrowth::setUp() {
     return ensure(noWords_, "no roof grammar", kUniformMapWords * 4);
 }
 
 // Kernels for what the grammar uses.
-Status GpuRoofs::makeKernels(const RuleMap& grammar, bool fetches) {
+Status RoofGrowth::makeKernels(const RuleMap& grammar, bool fetches) {
     const RuleMapRef map = grammar.ref();
     Kind kind{words_.size() > kUniformMapWords * 4, !fetches, kind_.uses};
     for (uint32_t i = 0; i < map.ruleCount; ++i) {
@@ -48,10 +48,12 @@ Status GpuRoofs::makeKernels(const RuleMap& grammar, bool fetches) {
     derive_ = {};
     return makeCompute(device_,
                        {{derive_, "roof_growth/derive.comp",
-                         exactly({{0, kind.mapByAddress}, {1, kind.uses}, {2, kind.recordsByAddress}}), kRoofGroup}});
+                         exactly({{kConstantTablesByAddress, kind.mapByAddress},
+                                  {kConstantRoofUses, kind.uses},
+                                  {kConstantRecordsByAddress, kind.recordsByAddress}}), kRoofGroup}});
 }
 
-RoofEnv GpuRoofs::environment(const RoofInputs& inputs, const Set& set) const {
+RoofEnv RoofGrowth::environment(const RoofInputs& inputs, const Set& set) const {
     RoofEnv env{};
     env.map = addressOf<RuleMapBuf>(map_);
     env.atoms = addressOf<RoofAtomBuf>(atoms_.buffer);
@@ -83,7 +85,7 @@ RoofEnv GpuRoofs::environment(const RoofInputs& inputs, const Set& set) const {
     return env;
 }
 
-void GpuRoofs::record(Commands& commands, const Texels& texels, uint32_t waves) {
+void RoofGrowth::record(Commands& commands, const Texels& texels, uint32_t waves) {
     {
         // One pass: on software devices each time stamp wakes all threads, which one house would feel.
         Pass pass(commands, "roof expand");
@@ -100,7 +102,7 @@ void GpuRoofs::record(Commands& commands, const Texels& texels, uint32_t waves) 
     commands.barrier(Use::transfer, Use::host);
 }
 
-GpuRoofs::Outcome GpuRoofs::readBack() {
+RoofGrowth::Outcome RoofGrowth::readBack() {
     Outcome outcome;
     outcome.ms = device_.milliseconds("roof expand");
     std::memcpy(&outcome.status, readback_.mapped(), sizeof(RoofStatus));
@@ -115,8 +117,8 @@ GpuRoofs::Outcome GpuRoofs::readBack() {
     return outcome;
 }
 
-Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
-                                           RoofStatus status, uint32_t waves) {
+Result<RoofGrowth::Outcome> RoofGrowth::expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
+                                               RoofStatus status, uint32_t waves) {
     if (houses.empty())
         if (Status s = makeRoom(set); !s) return s.failure();
     Result<Commands> commands = Commands::begin(device_, "roofs");
@@ -152,8 +154,8 @@ Result<GpuRoofs::Outcome> GpuRoofs::expand(const RoofInputs& inputs, Set& set, s
     return outcome;
 }
 
-Result<GpuRoofs::Outcome> GpuRoofs::expandWhole(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
-                                                RoofStatus status) {
+Result<RoofGrowth::Outcome> RoofGrowth::expandWhole(const RoofInputs& inputs, Set& set,
+                                                    std::span<const uint32_t> houses, RoofStatus status) {
     Result<Outcome> outcome = expand(inputs, set, houses, status, wavesAhead_);
     if (outcome && !outcome->complete) outcome = expand(inputs, set, houses, status, kRoofWaves - 1);
     if (outcome)
@@ -161,7 +163,7 @@ Result<GpuRoofs::Outcome> GpuRoofs::expandWhole(const RoofInputs& inputs, Set& s
     return outcome;
 }
 
-void GpuRoofs::measure(const RoofTables& t, uint32_t house) {
+void RoofGrowth::measure(const RoofTables& t, uint32_t house) {
     Box box;
     const RoofTables::House& range = t.houses[house];
     const glm::vec3 plot(t.plots[house].at.x, 0, t.plots[house].at.y);
@@ -177,7 +179,7 @@ void GpuRoofs::measure(const RoofTables& t, uint32_t house) {
     boxes_[house] = box;
 }
 
-void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::span<const uint32_t> houses) {
+void RoofGrowth::publish(const RoofInputs& inputs, const Outcome& outcome, std::span<const uint32_t> houses) {
     const Set& set = sets_[front_];
     last_ = outcome.status;
     view_.grids = addressOf<RoofGridBuf>(set.grids);
@@ -225,7 +227,7 @@ void GpuRoofs::publish(const RoofInputs& inputs, const Outcome& outcome, std::sp
     stats_.reservedBytes = reserved();
 }
 
-uint64_t GpuRoofs::reserved() const {
+uint64_t RoofGrowth::reserved() const {
     uint64_t bytes = 0;
     for (const Set& s : sets_)
         bytes += s.grids.size() + s.runs.size() + s.plots.size() + s.regions.buffer.size() + s.parts.buffer.size() +
@@ -234,7 +236,7 @@ uint64_t GpuRoofs::reserved() const {
     return bytes;
 }
 
-void GpuRoofs::trim() {
+void RoofGrowth::trim() {
     const auto fit = [](uint32_t& room, uint32_t needed, uint32_t least) {
         room = std::min<uint64_t>(room, std::max<uint64_t>(needed + needed / 2ull, least));
     };
@@ -250,7 +252,7 @@ void GpuRoofs::trim() {
     stats_.reservedBytes = reserved();
 }
 
-bool GpuRoofs::fits(const RoofStatus& s, const Set& set) {
+bool RoofGrowth::fits(const RoofStatus& s, const Set& set) {
     return s.grids <= set.grids.size() / sizeof(RoofGrid) && s.rows <= set.runs.size() / sizeof(RoofRun) &&
            s.regions <= set.regions.buffer.size() / sizeof(RoofRegion) &&
            s.parts <= set.parts.buffer.size() / sizeof(RoofPart) && s.planes <= set.planes.buffer.size() / sizeof(vec4);
@@ -258,7 +260,7 @@ bool GpuRoofs::fits(const RoofStatus& s, const Set& set) {
 
 // What has failed leaves the room that it asked for to nobody: later growth may need far less. What was noted as sent
 // while it was recorded may not have been.
-Status GpuRoofs::grow(const RoofInputs& inputs) {
+Status RoofGrowth::grow(const RoofInputs& inputs) {
     Undo undo([this, room = room_, plots = plots_]() mutable {
         stands_ = false;
         forgetTables();
@@ -273,7 +275,7 @@ Status GpuRoofs::grow(const RoofInputs& inputs) {
     return Done{};
 }
 
-Status GpuRoofs::growAll(const RoofInputs& inputs) {
+Status RoofGrowth::growAll(const RoofInputs& inputs) {
     const RoofTables& t = *inputs.town;
     noticeTown(inputs);
     plots_ = t.plots;
@@ -302,7 +304,7 @@ Status GpuRoofs::growAll(const RoofInputs& inputs) {
     return tooManyShapes();
 }
 
-Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> houses) {
+Status RoofGrowth::growHouses(const RoofInputs& inputs, std::span<const uint32_t> houses) {
     const RoofTables& t = *inputs.town;
     if (houses.empty()) return Done{};
     // A generation has eight bits, and what has gone is swept out by growing all anew when room runs out.
@@ -338,7 +340,7 @@ Status GpuRoofs::growHouses(const RoofInputs& inputs, std::span<const uint32_t> 
 }
 
 // Nothing has grown: what is drawn of these houses stays, though the GPU may have been told that it was replaced.
-void GpuRoofs::takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<RoofPlot>& plots) noexcept {
+void RoofGrowth::takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<RoofPlot>& plots) noexcept {
     plots_.swap(plots);
     forgetTables();  // some may have been noted as sent
     try {
@@ -353,7 +355,7 @@ void GpuRoofs::takeBack(const Set& set, std::span<const uint32_t> houses, std::v
     }
 }
 
-Result<RoofRecords> GpuRoofs::read() {
+Result<RoofRecords> RoofGrowth::read() {
     RoofRecords to;
     const Set& set = sets_[front_];
     auto fetch = [&](auto& values, const Buffer& buffer, uint32_t count) -> Status {
@@ -374,9 +376,9 @@ Result<RoofRecords> GpuRoofs::read() {
 }
 
 Result<std::unique_ptr<RoofGrowth>> RoofGrowth::create(Device& device) {
-    auto growth = std::make_unique<GpuRoofs>(device);
+    std::unique_ptr<RoofGrowth> growth(new RoofGrowth(device));
     if (Status s = growth->setUp(); !s) return s.failure();
-    return std::unique_ptr<RoofGrowth>(std::move(growth));
+    return growth;
 }
 
 }  // namespace espalier

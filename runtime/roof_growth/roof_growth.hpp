@@ -1,125 +1,180 @@
 #pragma once
 
-// Expansion of roofs on the GPU: a town's atoms and a grammar become grids of terminals (Buron 2013 §3).
+// RoofGrowth on the GPU: its buffers and kernels. roof_growth.cpp expands, roof_upload.cpp sends what that reads,
+// few_roofs.cpp grows a few houses on the CPU, house_sums.cpp counts what houses have drawn.
 
-#include <array>
-#include <memory>
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "runtime/core/result.hpp"
-#include "runtime/gpu/buffer.hpp"
-#include "runtime/grammar/grammar.hpp"
-#include "runtime/roof_growth/atoms.hpp"
+#include "runtime/gpu/commands.hpp"
+#include "runtime/gpu/program.hpp"
+#include "runtime/roof_growth/roof_data.hpp"
 
 namespace espalier {
 
-// Everything that roofs grow from. Pointers stay valid during the call.
-struct RoofInputs {
-    const RoofTables* town = nullptr;
-    uint64_t townRevision = 0;  // changes with tables that are made anew; replaceAtoms() keeps it. 0: not known
-    const RuleMap* grammar = nullptr;
-    uint64_t grammarRevision = 1;      // changes with rules and parameters, which are uploaded anew then
-    std::span<const RoofMesh> meshes;  // by the numbers that the grammar was compiled with
-    RoofSite site{{0, 0}, 1, 1};       // that layers lie over
-    struct Layer {
-        const float* texels = nullptr;          // site.size² of them; null: nothing is painted
-        uint32_t firstRow = 0, rowCount = ~0u;  // that have changed since they were sent to the GPU
-    };
-    std::array<Layer, kRoofLayers> layers;  // as the grammar counts its contexts
-    std::span<const float> means;           // [house * kRoofLayers + layer]; empty: nothing is painted
-
-    // The value where nothing is painted.
-    float fill(uint32_t layer) const {
-        const auto& contexts = grammar->contexts();
-        return layer < contexts.size() ? contexts[layer].fill : 0;
-    }
-    // `means`, or what stands for them.
-    using Means = std::array<float, kRoofLayers>;
-    Means meansOf(size_t house) const;
-    std::vector<float> filledMeans(size_t houses) const;
-    bool fetch = true;  // software devices read records as texels; false: by address, as others do
-};
-
-// What drawing reads. Buffers belong to RoofGrowth and change only in its calls.
-struct RoofView {
-    RoofGridBuf grids{};
-    RoofRunBuf runs{};
-    RoofRegionBuf regions{};
-    RoofPartBuf parts{};
-    Vec4Buf planes{};
-    RoofMeshBuf meshes{};
-    RoofPlotBuf plots{};  // [house]
-    RoofLayerBuf layers{};
-    RoofSite site{};
-    uint32_t shownLayer = kNoIndex;  // by the view of a layer: the grammar's number, or colourLayers
-    uint32_t gridCount = 0, rowCount = 0;
-    uint64_t tileCount = 0, clippedCount = 0;
-    uint64_t revision = 0;
-    glm::vec3 low{0}, high{0};  // of the town
-};
-
-struct RoofStats {
-    uint32_t houses = 0, atoms = 0;
-    uint32_t grids = 0, terminals = 0;  // records, also of houses that grew anew since; drawn ones of one cell
-    uint64_t tiles = 0, clipped = 0;    // cells that are drawn; those of them that an outline crosses
-    uint32_t waves = 0, stopped = 0;    // of the latest expansion; shapes that a limit ended
-    uint32_t expansions = 0;
-    uint64_t housesGrown = 0;  // by all expansions together
-    uint64_t bytes = 0;        // of grids, runs and the regions that Join made
-    uint64_t reservedBytes = 0;
-    uint64_t hash = 0;    // of all grids that are drawn, independent of their order: what a growth of all would give
-    double expandMs = 0;  // GPU time of the latest expansion; of a few houses that the CPU grows, its time
-};
-
-struct RoofRecords {
-    std::vector<RoofGrid> grids;
-    std::vector<RoofRun> runs;
-    std::vector<RoofRegion> regions;
-    std::vector<RoofPart> parts;
-    std::vector<vec4> planes;
-    std::vector<RoofPlot> plots;  // [house], as RoofView's
-};
+constexpr uint32_t kRoofWaves = kMaxRoofDepth + 2;
 
 class RoofGrowth {
   public:
     static Result<std::unique_ptr<RoofGrowth>> create(Device& device);
-    virtual ~RoofGrowth() = default;
 
     // Grows all roofs anew and publishes them when complete; on failure the last ones stand.
-    virtual Status grow(const RoofInputs& inputs) = 0;
+    Status grow(const RoofInputs& inputs);
     // Grows some houses anew, each named once, whose atoms replaceAtoms() has changed or whose layers; the others
     // stand. A few grow on the CPU, which takes less time than asking the GPU.
-    virtual Status growHouses(const RoofInputs& inputs, std::span<const uint32_t> houses) = 0;
+    Status growHouses(const RoofInputs& inputs, std::span<const uint32_t> houses);
     // Sends the rows of layers that have changed, for what is drawn of them; growing does so too.
-    virtual Status showLayers(const RoofInputs& inputs) = 0;
+    Status showLayers(const RoofInputs& inputs);
     // [house]: the layers that it has read when it grew last, as RoofEnv::reads.
-    virtual std::span<const uint32_t> reads() const = 0;
-    virtual RoofView view() const = 0;
-    virtual RoofStats stats() const = 0;
+    std::span<const uint32_t> reads() const { return reads_; }
+    RoofView view() const { return view_; }
+    RoofStats stats() const { return stats_; }
     // Waits for the GPU and copies what was grown.
-    virtual Result<RoofRecords> read() = 0;
+    Result<RoofRecords> read();
     // Drops what only the next growth of all roofs, or of many, would use. What stands is left as it is.
-    virtual void trim() = 0;
-};
+    void trim();
 
-// The same on the CPU, from the same text; `status` tells what was made.
-struct CpuRoofs {
-    Status complete = Done{};  // or why not all has been made
-    RoofRecords records;
-    RoofStatus status{};
-    uint32_t waves = 0;
-    std::vector<uint32_t> reads;  // [house], see RoofEnv
-};
-CpuRoofs growRoofsOnCpu(const RoofInputs& inputs, unsigned threads = 1);
+  private:
+    explicit RoofGrowth(Device& device) : device_(device) {}
+    Status setUp();
 
-// Room for expansion, in records; grown by what a status asks for.
-struct RoofRoom {
-    uint32_t scopes = 1u << 14, grids = 1u << 14, rows = 1u << 16, regions = 1024, parts = 1024, planes = 3072;
-    // True if `status` fitted; else the room is larger now. Fails where none would do. starts: shapes of the first
-    // wave.
-    Result<bool> hold(const RoofStatus& status, uint32_t widestWave, uint32_t starts);
-};
+    // Records of the town's tables, which only grow, and how many of them the GPU has been sent.
+    struct Table {
+        Buffer buffer;
+        uint32_t held = 0;
+    };
+    // Regions, parts and planes that Join makes stand behind the town's. plots: [house], RoofView's. layers:
+    // RoofLayer, as the grammar counts them that the set is grown by.
+    struct Set {
+        Buffer grids, runs, plots, layers;
+        Table regions, parts, planes;
+    };
+    // Of the town, whichever grammar reads it.
+    struct LayerTexels {
+        Buffer buffer;
+        bool sent = false;  // all rows
+    };
+    struct Outcome {
+        RoofStatus status;
+        uint32_t waves = 0, widest = 0;
+        bool complete = false;  // no shape waits for a wave that wasn't recorded
+        double ms = 0;
+        // Of a few houses, as they are sent.
+        std::vector<RoofGrid> grids;
+        std::vector<RoofRun> runs;
+    };
+    // What grids come to, as in RoofStatus.
+    struct Sums {
+        uint64_t touched = 0, whole = 0, terminals = 0;
+        uint32_t hash[2] = {0, 0};
+        Sums& operator+=(const Sums& s) {
+            touched += s.touched, whole += s.whole, terminals += s.terminals;
+            for (int i : {0, 1}) hash[i] += s.hash[i];
+            return *this;
+        }
+    };
+    // Records as the kernels of one expansion fetch them.
+    struct Texels {
+        TexelView atoms, regions, pieces, shapes[2], parts, planes;
+    };
+    // Records of the town's tables, with room for houses that change.
+    struct Counts {
+        uint32_t atoms = 0, pieces = 0, regions = 0, parts = 0, planes = 0;
+        static Counts of(const RoofTables& t) {
+            return {uint32_t(t.atoms.size()), uint32_t(t.pieces.size()), uint32_t(t.regions.size()),
+                    uint32_t(t.parts.size()), uint32_t(t.planes.size())};
+        }
+        Counts withSlack() const {
+            auto more = [](uint32_t n) { return n + n / 8 + 512; };
+            return {more(atoms), more(pieces), more(regions), more(parts), more(planes)};
+        }
+        bool holds(const Counts& c) const {
+            return c.atoms <= atoms && c.pieces <= pieces && c.regions <= regions && c.parts <= parts &&
+                   c.planes <= planes;
+        }
+    };
+    // What kernels are specialised to. `uses` only grows, so that edits seldom make a kernel.
+    struct Kind {
+        bool mapByAddress = false, recordsByAddress = false;
+        uint32_t uses = 0;
+        bool operator==(const Kind&) const = default;
+    };
+    struct Box {
+        glm::vec3 low{1e9f}, high{-1e9f};
+    };
 
-// Tells that no room has done.
-Failure tooManyShapes();
+    Status makeKernels(const RuleMap& grammar, bool fetches);
+    Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
+    Status ensure(Table& table, const char* name, uint64_t bytes);
+    Status makeRoom(Set& set);
+    Result<Texels> viewRecords(const Set& set, bool fetches) const;
+    bool mayFetch(const RoofInputs& inputs, const Set& set) const;
+    void noticeTown(const RoofInputs& inputs);
+    // Nothing is known to have been sent of tables and layers.
+    void forgetTables();
+    Status uploadTables(Commands& commands, const RoofTables& t, Set& set);
+    Status uploadStarts(Commands& commands, const RoofTables& t, std::span<const uint32_t> houses);
+    Status uploadGrammar(Commands& commands, const RoofInputs& inputs);
+    void forgetLayersBut(std::span<const ContextInfo> read);
+    Status uploadLayers(Commands& commands, const RoofInputs& inputs, Set& set);
+    Status uploadHouses(Commands& commands, const RoofInputs& inputs, const Set& set, std::span<const uint32_t> houses);
+    Status uploadPlot(Commands& commands, const Set& set, uint32_t house);
+    RoofEnv environment(const RoofInputs& inputs, const Set& set) const;
+
+    Status growAll(const RoofInputs& inputs);
+    // houses: those to grow, none: all. Goes through at most `waves` waves.
+    Result<Outcome> expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses, RoofStatus status,
+                           uint32_t waves);
+    // With as many waves as the last expansion took, or with all if that was too few.
+    Result<Outcome> expandWhole(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
+                                RoofStatus status);
+    // On the CPU, sent behind what the published set holds. Not complete: there is no room for it.
+    Result<Outcome> growFew(const RoofInputs& inputs, std::span<const uint32_t> houses);
+    // These haven't grown.
+    void takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<RoofPlot>& plots) noexcept;
+    void record(Commands& commands, const Texels& texels, uint32_t waves);
+    Outcome readBack();
+    // Whether what a status tells has found room.
+    static bool fits(const RoofStatus& status, const Set& set);
+    // houses: that have grown, none: all.
+    void publish(const RoofInputs& inputs, const Outcome& outcome, std::span<const uint32_t> houses);
+    void measure(const RoofTables& t, uint32_t house);
+    uint64_t reserved() const;
+    Sums sumsOf(const RoofGrid& grid, std::span<const RoofRun> runs) const;
+    // Of all houses, while all that is published is drawn.
+    Status countHouses();
+    // These have grown anew: their grids, and the runs from `last_` on.
+    Status recount(std::span<const uint32_t> houses, Outcome& outcome);
+
+    Device& device_;
+    Program derive_;
+    Kind kind_;
+    RoofRoom room_;
+    Set sets_[2];
+    uint32_t front_ = 0;
+    Table atoms_, pieces_;
+    Buffer starts_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, houseReads_, means_, readback_;
+    std::map<std::string, LayerTexels> layers_;  // by name
+    uint64_t grammarRevision_ = 0;
+    uint32_t wavesAhead_ = 4, widest_ = 0;   // shapes of the widest wave, when all houses grew last
+    Counts own_;                             // room for the town's tables
+    uint64_t town_ = 0;                      // RoofInputs::townRevision
+    std::vector<RoofTables::House> ranges_;  // of its houses, when what follows was made
+    std::vector<uint32_t> townStarts_;       // atoms of all houses' first shapes
+    bool startsSent_ = false;                // `starts_` holds these
+    uint32_t startCount_ = 0;                // of the expansion that is being recorded
+    std::vector<RoofPlot> plots_;            // [house]
+    std::vector<uint32_t> reads_;            // likewise
+    bool stands_ = false;          // what is published goes with the members above: no growth has failed since
+    std::vector<Box> boxes_;       // [house]
+    std::vector<Sums> houseSums_;  // [house], of what is drawn; empty: not counted since all have grown
+    Sums replaced_;                // of grids that aren't drawn any more
+    RoofStatus last_{};
+    RoofView view_;
+    RoofStats stats_;
+};
 
 }  // namespace espalier

@@ -4,12 +4,12 @@
 
 #include "runtime/core/undo.hpp"
 #include "runtime/gpu/limits.hpp"
-#include "runtime/roof_growth/gpu_roofs.hpp"
+#include "runtime/roof_growth/roof_growth.hpp"
 #include "shaders/shared/roof_tables.h"
 
 namespace espalier {
 
-Status GpuRoofs::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
+Status RoofGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
     if (buffer && buffer.size() >= bytes) return Done{};
     buffer = {};
     // What may be bound as a uniform buffer stays as small as that.
@@ -18,14 +18,14 @@ Status GpuRoofs::ensure(Buffer& buffer, const char* name, uint64_t bytes, Buffer
     return assign(buffer, Buffer::create(device_, name, bytes + spare, use));
 }
 
-Status GpuRoofs::ensure(Table& table, const char* name, uint64_t bytes) {
+Status RoofGrowth::ensure(Table& table, const char* name, uint64_t bytes) {
     const VkBuffer before = table.buffer.handle();
     Status made = ensure(table.buffer, name, bytes);
     if (table.buffer.handle() != before) table.held = 0;
     return made;
 }
 
-Status GpuRoofs::makeRoom(Set& set) {
+Status RoofGrowth::makeRoom(Set& set) {
     const uint64_t houses = std::max<uint64_t>(plots_.size(), 1);
     const struct {
         Table& table;
@@ -57,7 +57,7 @@ Status GpuRoofs::makeRoom(Set& set) {
 }
 
 // What is worked out of the town's tables once, not at each expansion.
-void GpuRoofs::noticeTown(const RoofInputs& inputs) {
+void RoofGrowth::noticeTown(const RoofInputs& inputs) {
     const RoofTables& t = *inputs.town;
     const bool other = inputs.townRevision == 0 || inputs.townRevision != town_;
     if (other) forgetTables();
@@ -77,7 +77,7 @@ void GpuRoofs::noticeTown(const RoofInputs& inputs) {
     town_ = inputs.townRevision;
 }
 
-void GpuRoofs::forgetTables() {
+void RoofGrowth::forgetTables() {
     for (Table* t : {&atoms_, &pieces_}) t->held = 0;
     for (Set& set : sets_)
         for (Table* t : {&set.regions, &set.parts, &set.planes}) t->held = 0;
@@ -86,7 +86,7 @@ void GpuRoofs::forgetTables() {
 }
 
 // What the town's tables hold beyond what was sent before.
-Status GpuRoofs::uploadTables(Commands& commands, const RoofTables& t, Set& set) {
+Status RoofGrowth::uploadTables(Commands& commands, const RoofTables& t, Set& set) {
     auto send = [&](Table& to, const auto& all) -> Status {
         const uint32_t begin = to.held;
         to.held = uint32_t(all.size());
@@ -98,7 +98,7 @@ Status GpuRoofs::uploadTables(Commands& commands, const RoofTables& t, Set& set)
 }
 
 // The atoms of the first wave. houses: that grow, none: all.
-Status GpuRoofs::uploadStarts(Commands& commands, const RoofTables& t, std::span<const uint32_t> houses) {
+Status RoofGrowth::uploadStarts(Commands& commands, const RoofTables& t, std::span<const uint32_t> houses) {
     std::vector<uint32_t> some;
     for (uint32_t house : houses) appendStarts(t, house, some);
     const std::vector<uint32_t>& starts = houses.empty() ? townStarts_ : some;
@@ -109,7 +109,7 @@ Status GpuRoofs::uploadStarts(Commands& commands, const RoofTables& t, std::span
     return starts.empty() ? Status(Done{}) : commands.upload(starts_, starts);
 }
 
-Status GpuRoofs::uploadGrammar(Commands& commands, const RoofInputs& inputs) {
+Status RoofGrowth::uploadGrammar(Commands& commands, const RoofInputs& inputs) {
     if (grammarRevision_ == inputs.grammarRevision) return Done{};
     auto send = [&](Buffer& buffer, const char* name, auto span, uint64_t least = 16) -> Status {
         auto bytes = std::as_bytes(span);
@@ -126,7 +126,7 @@ Status GpuRoofs::uploadGrammar(Commands& commands, const RoofInputs& inputs) {
 
 // Layers whose rows have changed, and the table by which the set's kernels find them. Painting may add a layer, never a
 // site.
-Status GpuRoofs::uploadLayers(Commands& commands, const RoofInputs& inputs, Set& set) {
+Status RoofGrowth::uploadLayers(Commands& commands, const RoofInputs& inputs, Set& set) {
     std::vector<RoofLayer> table(kRoofLayers);
     const uint64_t row = uint64_t(inputs.site.size) * sizeof(float);
     const std::vector<ContextInfo>& contexts = inputs.grammar->contexts();
@@ -152,13 +152,13 @@ Status GpuRoofs::uploadLayers(Commands& commands, const RoofInputs& inputs, Set&
     return commands.upload(set.layers, table);
 }
 
-void GpuRoofs::forgetLayersBut(std::span<const ContextInfo> read) {
+void RoofGrowth::forgetLayersBut(std::span<const ContextInfo> read) {
     std::erase_if(layers_, [&](const auto& layer) {
         return std::ranges::none_of(read, [&](const ContextInfo& context) { return context.name == layer.first; });
     });
 }
 
-Status GpuRoofs::showLayers(const RoofInputs& inputs) {
+Status RoofGrowth::showLayers(const RoofInputs& inputs) {
     Undo undo([this] { forgetTables(); });
     Result<Commands> commands = Commands::begin(device_, "roof layers");
     if (!commands) return commands.failure();
@@ -173,8 +173,8 @@ Status GpuRoofs::showLayers(const RoofInputs& inputs) {
 }
 
 // What is kept of each house that grows. Layers are known to grammars that declare them only.
-Status GpuRoofs::uploadHouses(Commands& commands, const RoofInputs& inputs, const Set& set,
-                              std::span<const uint32_t> houses) {
+Status RoofGrowth::uploadHouses(Commands& commands, const RoofInputs& inputs, const Set& set,
+                                std::span<const uint32_t> houses) {
     const bool layered = !inputs.grammar->contexts().empty();
     if (houses.empty() && !plots_.empty()) {
         commands.fill(houseReads_, 0, 0, plots_.size() * 4);
@@ -192,13 +192,13 @@ Status GpuRoofs::uploadHouses(Commands& commands, const RoofInputs& inputs, cons
     return Done{};
 }
 
-Status GpuRoofs::uploadPlot(Commands& commands, const Set& set, uint32_t house) {
+Status RoofGrowth::uploadPlot(Commands& commands, const Set& set, uint32_t house) {
     const auto plots = std::as_bytes(std::span(plots_));
     return commands.upload(set.plots, plots.subspan(house * sizeof(RoofPlot), sizeof(RoofPlot)),
                            house * sizeof(RoofPlot));
 }
 
-bool GpuRoofs::mayFetch(const RoofInputs& inputs, const Set& set) const {
+bool RoofGrowth::mayFetch(const RoofInputs& inputs, const Set& set) const {
     const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
     bool may = inputs.fetch && device_.info().cpu;
     for (const Buffer* b : {&atoms_.buffer, &pieces_.buffer, &scopes_[0], &scopes_[1], &set.regions.buffer,
@@ -208,7 +208,7 @@ bool GpuRoofs::mayFetch(const RoofInputs& inputs, const Set& set) const {
 }
 
 // Kernels that read by address need a view in any case.
-Result<GpuRoofs::Texels> GpuRoofs::viewRecords(const Set& set, bool fetches) const {
+Result<RoofGrowth::Texels> RoofGrowth::viewRecords(const Set& set, bool fetches) const {
     Texels t;
     const struct {
         TexelView& view;

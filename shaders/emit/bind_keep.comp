@@ -5,7 +5,7 @@
 #include "shaders/emit/bind.glsl"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 5) const uint kCellLanes = 1u;
+layout(constant_id = kConstantLanes) const uint kCellLanes = 1u;
 
 #include "shaders/emit/bind_cell.h"
 

@@ -15,17 +15,7 @@ void addTriangles(uint count) { atomicAdd(HEAD.first, count); }
 SpanInstance spanInstance(uint i) { return SPAN_INSTANCE(spanTexels, i); }
 Leaf readLeaf(uint i) { return push.leaves.v[i]; }
 
-void writeLeaf(uint i, LeafInstance o) {
-    PairBuf to = PairBuf(uint64_t(push.leafInstances) + uint64_t(i) * 64u);
-    to.v[0] = pairOf(o.origin.x, o.origin.y);
-    to.v[1] = pairOf(o.origin.z, o.axisX.x);
-    to.v[2] = pairOf(o.axisX.y, o.axisX.z);
-    to.v[3] = pairOf(o.axisY.x, o.axisY.y);
-    to.v[4] = pairOf(o.axisY.z, o.axisZ.x);
-    to.v[5] = pairOf(o.axisZ.y, o.axisZ.z);
-    to.v[6] = pairOf(o.normal, o.tint);
-    to.v[7] = pairOf(o.hash, o.bits);
-}
+void writeLeaf(uint i, LeafInstance o) { writeLeafInstance(push.leafInstances, i, o); }
 
 #include "shaders/emit/bind_leaf.h"
 

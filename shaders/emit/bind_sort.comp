@@ -5,7 +5,7 @@
 #include "shaders/emit/bind.glsl"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 5) const uint kSortLanes = 1u;   // a cell's
+layout(constant_id = kConstantLanes) const uint kSortLanes = 1u;   // a cell's
 layout(set = 0, binding = 0) uniform usamplerBuffer spanTexels;
 layout(set = 0, binding = 1) uniform usamplerBuffer leafTexels;
 

@@ -66,13 +66,13 @@ void bindSpan(uint i) {
         push.spans.v[i].reach = -1.0f;
         Node node = readNode(env, i);
         bool there = !isGap(node);
-        ChunkBrief chunk = readBrief(env, there ? node.chunk : 0u);
+        ChunkBrief chunk = readChunkBrief(env.chunks, there ? node.chunk : 0u);
         push.spans.v[i].bits = kNoBark | (there ? stretchBits(node, chunk) : 0u);
         uint before = ((node.flags >> 8u) & 31u) > 0u ? i - 1u : chunk.previousNode;
         if (there && before != kNoIndex) {
             Node start = readNode(env, before);
             ChunkBrief from = chunk;
-            if (start.chunk != node.chunk) from = readBrief(env, start.chunk);
+            if (start.chunk != node.chunk) from = readChunkBrief(env.chunks, start.chunk);
             bool sameBranch = from.branch == chunk.branch;
             bool foot = sameBranch && ((start.flags >> 8u) & 31u) == 0u && from.previousNode == kNoIndex;
             uint ia = start.place >> 16u;

@@ -4,7 +4,7 @@
 #define ESPALIER_EMIT_BLOCK_GLSL
 #include "shaders/emit/emit_inputs.glsl"
 
-layout(constant_id = 5) const uint kRankLanes = 1u;   // 1: the first lane ranks all; else each its own item
+layout(constant_id = kConstantLanes) const uint kRankLanes = 1u;   // 1: the first lane ranks all; else each its own item
 
 shared uint laneBuckets[64];
 shared uint laneRanks[64];

@@ -4,7 +4,7 @@
 #include "shaders/emit/emit_records.h"
 #include "shaders/shared/dispatch.glsl"
 
-layout(constant_id = 4) const uint kMoved = 1u;   // 0: nodes and leaves have the numbers that they had
+layout(constant_id = kConstantMoved) const uint kMoved = 1u;   // 0: nodes and leaves have the numbers that they had
 layout(push_constant, scalar) uniform Data { CarryPush push; };
 
 uint nodeNow(uint node) {

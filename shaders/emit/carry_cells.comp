@@ -6,7 +6,7 @@
 #include "shaders/emit/cells.h"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 5) const uint kCellLanes = 1u;   // 1 or 64
+layout(constant_id = kConstantLanes) const uint kCellLanes = 1u;   // 1 or 64
 
 shared uvec2 begins[64];   // of the group's cells in the order of items: before, now
 

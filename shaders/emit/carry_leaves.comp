@@ -3,7 +3,7 @@
 #include "shaders/shared/extensions.glsl"
 // A leaf each: its instance, its bin and the next one on its node.
 #include "shaders/emit/carry.glsl"
-#include "shaders/shared/pairs.h"
+#include "records/emit_records.h"
 
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform usamplerBuffer leafTexels;
@@ -13,9 +13,9 @@ void main() {
     uint to = kNoIndex;
     if (i < push.leafCount) to = leafNow(i);
     if (to != kNoIndex) {
-        PairBuf leaf = PairBuf(uint64_t(push.leavesTo) + uint64_t(to) * 64u);
-        for (uint k = 0u; k < 4u; ++k) {
-            uvec4 texel = texelFetch(leafTexels, int(4u * i + k));
+        PairBuf leaf = PairBuf(uint64_t(push.leavesTo) + uint64_t(to) * (4u * kLeafInstance_words));
+        for (uint k = 0u; k < kLeafInstance_words / 4u; ++k) {
+            uvec4 texel = texelFetch(leafTexels, int(kLeafInstance_words / 4u * i + k));
             leaf.v[2u * k] = packUint2x32(texel.xy);
             leaf.v[2u * k + 1u] = packUint2x32(texel.zw);
         }

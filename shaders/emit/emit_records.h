@@ -5,6 +5,7 @@
 // (variant, LOD) is a bucket: one mesh, drawn by two indirect commands. Buckets of bark come first.
 #ifndef ESPALIER_EMIT_RECORDS_H
 #define ESPALIER_EMIT_RECORDS_H
+#include "shaders/shared/constants.h"
 #include "shaders/shared/growth_records.h"
 
 ESPALIER_BEGIN
@@ -162,6 +163,9 @@ struct SpanInstance {
     float reach;                // of the stretch's curves from there
 };
 STATIC_SIZE(SpanInstance, 96);
+RECORD_ACCESS(SpanInstance)
+RECORD_TEXELS(SpanInstance)
+RECORD_OFFSETS(SpanInstance)
 CONST_UINT(kNoBark, 63u);
 
 // A loose terminal in the world, 64 bytes: four texels. axes: columns times size: mesh x, y, z.
@@ -176,6 +180,9 @@ struct LeafInstance {
     uint bits;
 };
 STATIC_SIZE(LeafInstance, 64);
+RECORD_ACCESS(LeafInstance)
+RECORD_TEXELS(LeafInstance)
+RECORD_OFFSETS(LeafInstance)
 
 // Vertex of a terminal mesh, 24 bytes. Bark: x and y its cross-section in radii, z in [0,1] along the span.
 struct TerminalVertex {

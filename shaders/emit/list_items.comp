@@ -7,7 +7,7 @@
 
 layout(local_size_x = 64) in;
 
-layout(constant_id = 5) const uint kCellLanes = 1u;
+layout(constant_id = kConstantLanes) const uint kCellLanes = 1u;
 
 void main() {
     uint cell = itemIndex() / kCellLanes;

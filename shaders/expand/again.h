@@ -95,7 +95,7 @@ FN WorkItem itemAgain(ExpandEnv env, uint chunk) {
 }
 FN void queueAgain(ExpandEnv env, WorkItemBuf items, uint wave, uint chunk, uint itemsPerGroup) {
     uint at = atomicAdd(env.waves.v[wave].count, 1u);
-    if (at < env.itemCapacity) writeItem(items, at, itemAgain(env, chunk));
+    if (at < env.itemCapacity) writeWorkItem(items, at, itemAgain(env, chunk));
     uint before = atomicAdd(env.waves.v[wave].announced, 1u);
     uint added = groupsAdded(before, 1u, itemsPerGroup);
     if (added > 0u) atomicAdd(env.waves.v[wave].groups[0], added);

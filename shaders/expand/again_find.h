@@ -1,6 +1,7 @@
 // Which chunks read what has changed, which go with their seeds.
 #ifndef ESPALIER_EXPAND_AGAIN_FIND_H
 #define ESPALIER_EXPAND_AGAIN_FIND_H
+#include "records/expand_rows.h"
 #include "shaders/expand/again.h"
 #include "shaders/shared/record_lookup.h"
 
@@ -16,30 +17,13 @@ struct ChunkReads {
     uint marks, uses;
     uint words[3];   // Chunk::reads
 };
-#ifdef __cplusplus
-inline ChunkReads readReads(const ExpandEnv& env, uint at) {
-    const Chunk& c = env.chunks.v[at];
-    return {c.marks, c.uses, {c.reads[0], c.reads[1], c.reads[2]}};
-}
-#else
-ChunkReads readReads(ExpandEnv env, uint chunk) {
+FN ChunkReads readReads(ExpandEnv env, uint chunk) {
     ChunkReads r;
-    if (kRecordsByAddress != 0u) {
-        r.marks = env.chunks.v[chunk].marks;
-        r.uses = env.chunks.v[chunk].uses;
-        for (uint i = 0u; i < 3u; ++i) r.words[i] = env.chunks.v[chunk].reads[i];
-    } else {
-        uvec4 marks = CHUNK_TEXEL(7u * chunk + 5u);
-        uvec4 reads = CHUNK_TEXEL(7u * chunk + 6u);
-        r.marks = marks.y;
-        r.uses = marks.z;
-        r.words[0] = reads.y;
-        r.words[1] = reads.z;
-        r.words[2] = reads.w;
-    }
+    r.marks = env.chunks.v[chunk].marks;
+    r.uses = env.chunks.v[chunk].uses;
+    for (uint i = 0u; i < 3u; ++i) r.words[i] = env.chunks.v[chunk].reads[i];
     return r;
 }
-#endif
 FN uint tileOf(ChunkReads r, uint i) { return (r.words[i >> 1u] >> ((i & 1u) * 16u)) & 0xFFFFu; }
 
 // Whether one of its tiles lies in the box of what is dirty.
@@ -129,7 +113,7 @@ FN void findChunk(ExpandEnv env, EditHead head, uint c) {
         uint changed = head.uses != 0u ? head.edits.v[head.uses + grammar] : 0u;
         dirty = dirty || (changed & r.uses) != 0u;
         bool other = head.extrudes != 0u && head.edits.v[head.extrudes + grammar] != 0u;
-        if (first && (other || (changed & env.tables.v[grammar * kGrammarWords + kTableExtrudeParams]) != 0u)) {
+        if (first && (other || (changed & env.tables.v[grammar * kGrammarTables_words + kGrammarTables_extrudeParams]) != 0u)) {
             AGAIN_MARKS.v[branch].branchBits = kBranchListed | kBranchRedo;
             appendTo(env, kListBranches, branch);
         }

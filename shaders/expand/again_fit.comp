@@ -17,7 +17,7 @@ void main() {
     uint count = listed(env, kListFit);
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
         uint chunk = listEntry(env, kListFit, i);
-        ChunkBrief brief = readBrief(env, chunk);
+        ChunkBrief brief = readChunkBrief(env.chunks, chunk);
         bool there = lane < chunkNodes(brief.marks);
         if (there) fitAgain(env, branchesBefore, chunk, brief, lane, hash);
     }

@@ -1,6 +1,7 @@
 // Of branches with grown chunks: the nodes whose terminals are to be made, and the branches whose thickness may change.
 #ifndef ESPALIER_EXPAND_AGAIN_WORK_H
 #define ESPALIER_EXPAND_AGAIN_WORK_H
+#include "records/expand_rows.h"
 #include "shaders/expand/again.h"
 #include "shaders/shared/rule_map.h"
 
@@ -17,7 +18,7 @@ FN uint countBits(uint bits) {
 // Whether every node of the branch depends on what has changed: its length, or a parameter of its terminals.
 FN bool wholeBranch(ExpandEnv env, uint branch, uint first) {
     uint grammar = env.chunks.v[first].symbol >> 16u;
-    bool asksLength = (env.tables.v[grammar * kGrammarWords + kTableExtrudeInputs] & kInputBranchLength) != 0u;
+    bool asksLength = (env.tables.v[grammar * kGrammarTables_words + kGrammarTables_extrudeInputs] & kInputBranchLength) != 0u;
     bool longer = floatBitsToUint(env.branches.v[branch].extent) !=
                   floatBitsToUint(branch < AGAIN.branchCount ? AGAIN.branchesBefore.v[branch].extent : -1.0f);
     return (AGAIN_MARKS.v[branch].branchBits & kBranchRedo) != 0u || (asksLength && longer);

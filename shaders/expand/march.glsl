@@ -22,7 +22,7 @@ void main() {
         if (!live && more) {
             uint i = atomicAdd(env.waves.v[env.wave].taken, 1u);
             bool there = i < count;
-            if (there) live = beginChunk(env, readItem(env.items, i), c);
+            if (there) live = beginChunk(env, readWorkItem(env.items, i), c);
             taken = taken + 1u;
             more = there && (taken < kMostTaken || count > kMostGroups * kItemsPerGroup);
         }

@@ -21,15 +21,6 @@ FN bool isColourLayers(uint layer) { return (layer >> 24u) == 1u; }
 
 CONST_FLOAT(kNoGround, -1e30f);   // below everything
 
-// Constants of programs: do they draw another view than the shaded one? Do textures hold square roots of colours? Are
-// they for pictures of what moves, which have to be cheap? Do they draw the rest, too:
-// meadow on the feet of models, hills before the sky?
-CONST_UINT(kExplains, 0u);
-CONST_UINT(kRooted, 1u);
-CONST_UINT(kQuick, 2u);
-CONST_UINT(kRest, 3u);
-CONST_UINT(kCorners, 4u);   // of leaves that are lit ahead: 3 or 4
-
 CONST_FLOAT(kHighestHill, 0.075f);   // sine of its height over the horizon
 
 // Colours are linear. Clip space: depth reversed, 1 at the near plane, 0 at infinity.

@@ -4,7 +4,7 @@
 // Leaves that light_leaves.comp has lit.
 #include "shaders/render/lit_vertex.glsl"
 
-layout(constant_id = 4) const uint corners = 3;
+layout(constant_id = kConstantCorners) const uint corners = 3;
 layout(push_constant, scalar) uniform Data { TerminalPush push; };
 layout(location = 0) out vec2 uv;
 layout(location = 1) flat out vec4 ownShare;

@@ -6,7 +6,7 @@
 #include "shaders/render/lit.glsl"
 #include "shaders/shared/dispatch.glsl"
 
-layout(constant_id = 4) const uint corners = 3;
+layout(constant_id = kConstantCorners) const uint corners = 3;
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Data { LightPush data; };
 

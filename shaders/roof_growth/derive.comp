@@ -5,20 +5,21 @@
 // Shapes of one wave -> shapes of the next, grids of terminals with their rows; see roof_expand.h.
 #include "shaders/shared/extensions.glsl"
 
+#include "shaders/shared/constants.h"
 #define ESPALIER_ROOF_FETCH
-layout(constant_id = 2) const uint kRecordsByAddress = 1u;
+layout(constant_id = kConstantRecordsByAddress) const uint kRecordsByAddress = 1u;
 layout(binding = 3) uniform usamplerBuffer atomTexels;
 layout(binding = 4) uniform usamplerBuffer regionTexels;
 layout(binding = 5) uniform usamplerBuffer pieceTexels;
 layout(binding = 6) uniform usamplerBuffer shapeTexels;
 layout(binding = 7) uniform usamplerBuffer partTexels;
 layout(binding = 8) uniform usamplerBuffer planeTexels;
-#define ATOM_TEXEL(i) texelFetch(atomTexels, int(i))
-#define REGION_TEXEL(i) texelFetch(regionTexels, int(i))
-#define PIECE_TEXEL(i) texelFetch(pieceTexels, int(i))
-#define SHAPE_TEXEL(i) texelFetch(shapeTexels, int(i))
-#define PART_TEXEL(i) texelFetch(partTexels, int(i))
-#define PLANE_TEXEL(i) texelFetch(planeTexels, int(i))
+#define ATOM_TEXEL(view, i) texelFetch(atomTexels, int(i))
+#define REGION_TEXEL(view, i) texelFetch(regionTexels, int(i))
+#define PIECE_TEXEL(view, i) texelFetch(pieceTexels, int(i))
+#define SHAPE_TEXEL(view, i) texelFetch(shapeTexels, int(i))
+#define PART_TEXEL(view, i) texelFetch(partTexels, int(i))
+#define PLANE_TEXEL(view, i) texelFetch(planeTexels, int(i))
 #include "shaders/shared/roof_expand.h"
 
 layout(local_size_x = 64) in;

@@ -1,8 +1,7 @@
 // What the kernels of expansion share besides the growth itself: buffers, counters, waves, limits.
 #ifndef ESPALIER_SHARED_EXPAND_ENV_H
 #define ESPALIER_SHARED_EXPAND_ENV_H
-#include "shaders/shared/growth_records.h"
-#include "shaders/shared/pairs.h"
+#include "records/growth_records.h"
 #include "shaders/shared/rule_map.h"
 
 ESPALIER_BEGIN
@@ -56,25 +55,6 @@ struct Wave {
 STATIC_SIZE(Wave, 32);
 BUFFER(WaveBuf, Wave)
 
-// Where a grammar's packed tables lie among the words of all tables (expand_tables.h), what growth by it asks of
-// places, and its width. One a grammar at the head of these words.
-struct GrammarTables {
-    uint symbols, rules, successors, terminals, extrudes, code, sites;   // indices of words
-    float width;             // metres: the surface is taken as coarse as suits shapes of this width
-    uint inputs, layers;     // of symbols and rules
-    uint sceneLayers;        // by the scene's numbers, of terminals too
-    uint extrudeInputs, extrudeLayers, extrudeParams;
-};
-STATIC_SIZE(GrammarTables, 56);
-CONST_UINT(kGrammarWords, 14u);
-CONST_UINT(kTableWidth, 7u);     // words of GrammarTables
-CONST_UINT(kTableInputs, 8u);
-CONST_UINT(kTableLayers, 9u);
-CONST_UINT(kTableSceneLayers, 10u);
-CONST_UINT(kTableExtrudeInputs, 11u);
-CONST_UINT(kTableExtrudeLayers, 12u);
-CONST_UINT(kTableExtrudeParams, 13u);
-
 // All that a kernel of expansion is handed, as push constants.
 struct ExpandEnv {
     SurfaceBuf surfaces;
@@ -125,6 +105,7 @@ inline uint atomicMax(uint& memory, uint value) {
 inline uint loadShared(const uint& memory) { return __atomic_load_n(&memory, __ATOMIC_RELAXED); }
 #define STORE_SHARED(memory, value) __atomic_store_n(&(memory), value, __ATOMIC_RELAXED)
 #else
+#define loadShared(memory) (memory)
 #define STORE_SHARED(memory, value) memory = value
 #endif
 
@@ -189,91 +170,6 @@ FN uvec2 hashOfLeaf(u64 key, uint flags, Leaf leaf) {
     uvec2 h = hashWord(hashWord(hashWord(hashKey(key), leaf.place), leaf.pose), leaf.tint);
     return hashWord(h, 0x1EAF0000u | (flags & 0x1F00u));
 }
-
-// Whole records at once, in pieces of eight bytes: software devices loop over lanes for every piece.
-#ifdef __cplusplus
-inline WorkItem readItem(WorkItemBuf items, uint at) { return items.v[at]; }
-inline void writeItem(WorkItemBuf items, uint at, const WorkItem& item) { items.v[at] = item; }
-inline void writeNode(NodeBuf nodes, uint at, const Node& node) { nodes.v[at] = node; }
-inline void writeChunk(ChunkBuf chunks, uint at, const Chunk& chunk) { chunks.v[at] = chunk; }
-#else
-WorkItem readItem(WorkItemBuf items, uint at) {
-    PairBuf from = PairBuf(uint64_t(items) + uint64_t(at) * 80u);
-    WorkItem item;
-    item.key = from.v[0];
-    uvec2 p = unpackUint2x32(from.v[1]);
-    uvec2 q = unpackUint2x32(from.v[2]);
-    uvec2 r = unpackUint2x32(from.v[3]);
-    item.walk.place = p.x;
-    item.walk.uv = uintBitsToFloat(uvec2(p.y, q.x));
-    item.walk.direction = uintBitsToFloat(uvec3(q.y, r.x, r.y));
-    p = unpackUint2x32(from.v[4]);
-    item.walk.arc = uintBitsToFloat(p.x);
-    item.symbol = p.y;
-    vec2 args = uintBitsToFloat(unpackUint2x32(from.v[5]));
-    item.args[0] = args.x;
-    item.args[1] = args.y;
-    args = uintBitsToFloat(unpackUint2x32(from.v[6]));
-    item.args[2] = args.x;
-    item.args[3] = args.y;
-    p = unpackUint2x32(from.v[7]);
-    item.parent = p.x;
-    item.origin = p.y;
-    p = unpackUint2x32(from.v[8]);
-    item.branch = p.x;
-    item.seed = p.y;
-    p = unpackUint2x32(from.v[9]);
-    item.depth = p.x;
-    item.step = p.y;
-    return item;
-}
-void writeItem(WorkItemBuf items, uint at, WorkItem item) {
-    PairBuf to = PairBuf(uint64_t(items) + uint64_t(at) * 80u);
-    to.v[0] = item.key;
-    to.v[1] = pairOf(item.walk.place, floatBitsToUint(item.walk.uv.x));
-    to.v[2] = pairOf(item.walk.uv.y, item.walk.direction.x);
-    to.v[3] = pairOf(item.walk.direction.y, item.walk.direction.z);
-    to.v[4] = pairOf(floatBitsToUint(item.walk.arc), item.symbol);
-    to.v[5] = pairOf(item.args[0], item.args[1]);
-    to.v[6] = pairOf(item.args[2], item.args[3]);
-    to.v[7] = pairOf(item.parent, item.origin);
-    to.v[8] = pairOf(item.branch, item.seed);
-    to.v[9] = pairOf(item.depth, item.step);
-}
-// A node is eleven words: one and five pairs at even places, five pairs and one at odd ones.
-void writeNode(NodeBuf nodes, uint at, Node n) {
-    bool odd = (at & 1u) != 0u;
-    uint64_t address = uint64_t(nodes) + uint64_t(at) * 44u;
-    PairBuf to = PairBuf(address + (odd ? 4ul : 0ul));
-    uvec3 p = floatBitsToUint(n.position);
-    uint radius = floatBitsToUint(n.radius);
-    uint arc = floatBitsToUint(n.arc);
-    to.v[0] = packUint2x32(odd ? p.yz : p.xy);
-    to.v[1] = packUint2x32(odd ? uvec2(n.normal, n.tangent) : uvec2(p.z, n.normal));
-    to.v[2] = packUint2x32(odd ? uvec2(n.uv, n.place) : uvec2(n.tangent, n.uv));
-    to.v[3] = packUint2x32(odd ? uvec2(radius, arc) : uvec2(n.place, radius));
-    to.v[4] = packUint2x32(odd ? uvec2(n.chunk, n.flags) : uvec2(arc, n.chunk));
-    UintBuf rest = UintBuf(address + (odd ? 0ul : 40ul));
-    rest.v[0] = odd ? p.x : n.flags;
-}
-void writeChunk(ChunkBuf chunks, uint at, Chunk c) {
-    PairBuf to = PairBuf(uint64_t(chunks) + uint64_t(at) * 112u);
-    to.v[0] = c.key;
-    to.v[1] = pairOf(c.entry.place, floatBitsToUint(c.entry.uv.x));
-    to.v[2] = pairOf(c.entry.uv.y, c.entry.direction.x);
-    to.v[3] = pairOf(c.entry.direction.y, c.entry.direction.z);
-    to.v[4] = pairOf(floatBitsToUint(c.entry.arc), c.symbol);
-    to.v[5] = pairOf(c.args[0], c.args[1]);
-    to.v[6] = pairOf(c.args[2], c.args[3]);
-    to.v[7] = pairOf(c.parent, c.previousNode);
-    to.v[8] = pairOf(c.next, c.branch);
-    to.v[9] = pairOf(c.firstNode, c.depth);
-    to.v[10] = pairOf(c.step, c.marks);
-    to.v[11] = pairOf(c.uses, c.firstChild);
-    to.v[12] = pairOf(c.nextSibling, c.reads[0]);
-    to.v[13] = pairOf(c.reads[1], c.reads[2]);
-}
-#endif
 
 // Groups of `each` for a dispatch over `count` items: as many as every device takes, which go on to the others.
 FN uint groupsOf(uint count, uint each) {

@@ -70,17 +70,18 @@ FN uint publishNodes(ExpandEnv env, uint chunk, uint count) {
         if (fits && added > 0u) atomicAdd(env.status.v[0].nodeGroups[0], added);
     }
     for (uint i = 0u; i < (fits ? count : 0u); ++i) {
-        uint at = i * kStagedWords;
+        StagedSample s;
+        FILL_StagedSample(s, STAGED, i * kStagedSample_words)
         Node node;
-        node.position = vec3(uintBitsToFloat(STAGED(at)), uintBitsToFloat(STAGED(at + 1u)), uintBitsToFloat(STAGED(at + 2u)));
-        node.normal = normalWithHeading(STAGED(at + 3u), STAGED(at + 4u));
-        node.tangent = tangentWithHeading(STAGED(at + 4u), STAGED(at + 4u));
-        node.uv = STAGED(at + 5u);
-        node.place = STAGED(at + 6u);
+        node.position = s.position;
+        node.normal = normalWithHeading(s.normal, s.heading);
+        node.tangent = tangentWithHeading(s.heading, s.heading);
+        node.uv = s.uv;
+        node.place = s.place;
         node.radius = 0.0f;
-        node.arc = uintBitsToFloat(STAGED(at + 7u));
+        node.arc = s.arc;
         node.chunk = chunk;
-        node.flags = STAGED(at + 8u);
+        node.flags = s.flags;
         writeNode(env.nodes, first + i, node);
     }
     return first;
@@ -246,11 +247,11 @@ FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth
     c.g = freshGrower(item);
     c.map = basesOf(env, c.g.grammar);
     c.site.chunk = chunk;
-    uint tables = c.g.grammar * kGrammarWords;
-    c.site.inputs = TABLE(tables + kTableInputs);
-    c.site.layers = TABLE(tables + kTableLayers);
-    c.site.sceneLayers = TABLE(tables + kTableSceneLayers);
-    uint width = TABLE(tables + kTableWidth);
+    uint tables = c.g.grammar * kGrammarTables_words;
+    c.site.inputs = TABLE(tables + kGrammarTables_inputs);
+    c.site.layers = TABLE(tables + kGrammarTables_layers);
+    c.site.sceneLayers = TABLE(tables + kGrammarTables_sceneLayers);
+    uint width = TABLE(tables + kGrammarTables_width);
     c.site.level = levelFor(env, walk.place, uintBitsToFloat(width), texel);
     c.site.depth = item.depth & 0xFFFFu;
     c.site.stepBase = item.step & 0xFFFFFFu;

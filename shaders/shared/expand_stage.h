@@ -3,21 +3,19 @@
 // (Buron 2015 §6 has the spans): a step may go over several edges of triangles, and its ends tell nothing of these.
 #ifndef ESPALIER_SHARED_EXPAND_STAGE_H
 #define ESPALIER_SHARED_EXPAND_STAGE_H
+#include "records/staged_sample.h"
 #include "shaders/shared/bezier.h"
 #include "shaders/shared/expand_scope.h"
 #include "shaders/shared/triangle_lookup.h"
 
 ESPALIER_BEGIN
 
-// Of a node: position, normal, heading, uv, place, arc, flags; where it was come to on the near side of a seam, uv and
-// place.
-CONST_UINT(kStagedWords, 11u);
 #ifdef __cplusplus
 #define STAGED(i) stage.v[i]
 // Few steps come here: the others keep their registers.
 #define FN_SELDOM __attribute__((noinline, flatten)) inline
 #else
-uint stagedNodes[kChunkNodes * kStagedWords];
+uint stagedNodes[kChunkNodes * kStagedSample_words];
 #define STAGED(i) stagedNodes[i]
 #define FN_SELDOM
 #endif
@@ -44,16 +42,17 @@ struct StagedNode {
 
 FN StagedNode stagedNode(UintBuf stage, uint index) {
     UNUSED(stage);
-    uint at = kStagedWords * index;
+    StagedSample words;
+    FILL_StagedSample(words, STAGED, kStagedSample_words * index)
     StagedNode s;
-    s.position = vec3(uintBitsToFloat(STAGED(at)), uintBitsToFloat(STAGED(at + 1u)), uintBitsToFloat(STAGED(at + 2u)));
-    s.normal = STAGED(at + 3u);
-    s.uv = unpackUv(STAGED(at + 5u));
-    s.place = STAGED(at + 6u);
-    s.arc = uintBitsToFloat(STAGED(at + 7u));
-    s.inserted = (STAGED(at + 8u) & kNodeInserted) != 0u;
-    s.nearUv = unpackUv(STAGED(at + 9u));
-    s.nearPlace = STAGED(at + 10u);
+    s.position = words.position;
+    s.normal = words.normal;
+    s.uv = unpackUv(words.uv);
+    s.place = words.place;
+    s.arc = words.arc;
+    s.inserted = (words.flags & kNodeInserted) != 0u;
+    s.nearUv = unpackUv(words.nearUv);
+    s.nearPlace = words.nearPlace;
     return s;
 }
 
@@ -73,7 +72,7 @@ FN StagedNode enteredNode(WalkState w) {
 
 FN void stagePosition(UintBuf stage, uint index, vec3 position) {
     UNUSED(stage);
-    uint at = kStagedWords * index;
+    uint at = kStagedSample_words * index + kStagedSample_position;
     STAGED(at) = floatBitsToUint(position.x);
     STAGED(at + 1u) = floatBitsToUint(position.y);
     STAGED(at + 2u) = floatBitsToUint(position.z);
@@ -83,9 +82,10 @@ FN void stagePosition(UintBuf stage, uint index, vec3 position) {
 FN void openStage(UintBuf stage, uint index, uint count) {
     UNUSED(stage);
     for (uint i = count; i > index; --i) {
-        uint at = i * kStagedWords;
-        for (uint k = 0u; k < kStagedWords; ++k) STAGED(at + k) = STAGED(at - kStagedWords + k);
-        STAGED(at + 8u) = (STAGED(at + 8u) & ~0x1F00u) | (i << 8u);
+        uint at = i * kStagedSample_words;
+        for (uint k = 0u; k < kStagedSample_words; ++k) STAGED(at + k) = STAGED(at - kStagedSample_words + k);
+        uint flags = at + kStagedSample_flags;
+        STAGED(flags) = (STAGED(flags) & ~0x1F00u) | (i << 8u);
     }
 }
 
@@ -156,7 +156,7 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
             // On a crease the normal is the mean of both sides already.
             if (!b.inserted && b.place == b.nearPlace) {
                 b.normal = packOct(across * (orientation * rsqrtExact(area2)));
-                STAGED(kStagedWords * i + 3u) = b.normal;
+                STAGED(kStagedSample_words * i + kStagedSample_normal) = b.normal;
             }
         } else if (follows) {
             vec3 normal = across * (orientation * rsqrtExact(area2));
@@ -184,16 +184,16 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
                 a.uv = at;
                 a.arc = a.arc + (b.arc - a.arc) * share;
                 a.inserted = true;
-                uint to = kStagedWords * i;
+                uint to = kStagedSample_words * i;
                 stagePosition(stage, i, vertex);
-                STAGED(to + 3u) = a.normal;
-                STAGED(to + 4u) = packOct(tangentOf(chord, mean));
-                STAGED(to + 5u) = packUv(at);
-                STAGED(to + 6u) = a.place;
-                STAGED(to + 7u) = floatBitsToUint(a.arc);
-                STAGED(to + 8u) = STAGED(to + 8u) | kNodeInserted;
-                STAGED(to + 9u) = packUv(at);
-                STAGED(to + 10u) = a.place;
+                STAGED(to + kStagedSample_normal) = a.normal;
+                STAGED(to + kStagedSample_heading) = packOct(tangentOf(chord, mean));
+                STAGED(to + kStagedSample_uv) = packUv(at);
+                STAGED(to + kStagedSample_place) = a.place;
+                STAGED(to + kStagedSample_arc) = floatBitsToUint(a.arc);
+                STAGED(to + kStagedSample_flags) = STAGED(to + kStagedSample_flags) | kNodeInserted;
+                STAGED(to + kStagedSample_nearUv) = packUv(at);
+                STAGED(to + kStagedSample_nearPlace) = a.place;
                 i = i + 1u;
                 end = end + 1u;
             }

@@ -122,9 +122,9 @@ FN void giveArgs(MACHINE_PARAM vec4 args) {
 // The arguments of a successor, `head` being its first word.
 FN vec4 readArgs(MACHINE_PARAM ExpandEnv env, uint at, uint head) {
     vec4 args = vec4(0.0f);
-    uint slots = TABLE(at + 3u);
+    uint slots = TABLE(at + kSuccessorRow_slots);
     for (uint i = 0u; i < ((head >> 24u) & 7u); ++i) {
-        uint immediate = TABLE(at + 4u + i);
+        uint immediate = TABLE(at + kSuccessorRow_args + i);
         float x = packedValue(MACHINE (slots >> (8u * i)) & 127u, immediate);
         args.x = i == 0u ? x : args.x;
         args.y = i == 1u ? x : args.y;
@@ -170,40 +170,40 @@ FN void pushItem(ExpandEnv env, WorkItem item, bool wanted, INOUT(Grower) g) {
     if (push) at = atomicAdd(env.waves.v[env.wave + 1u].count, 1u);
     g.pushed = g.pushed + (push ? 1u : 0u);
     g.refused = g.refused + (wanted && !push ? 1u : 0u);
-    if (at < env.itemCapacity) writeItem(env.nextItems, at, item);
+    if (at < env.itemCapacity) writeWorkItem(env.nextItems, at, item);
 }
 
 // Finds the shape's rule and applies it: a List at once (its branches are queued, what it continues with waits for
 // its own rule), a March as far as its length and angle. The machine knows the place.
 FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, WorkItem entry, INOUT(Grower) g) {
     giveArgs(MACHINE g.args);
-    uint at = map.symbols + g.symbol * kSymbolWords;
-    uint rules = TABLE(at);
-    uint sites = TABLE(at + 2u);
+    uint at = map.symbols + g.symbol * kSymbolRow_words;
+    uint rules = TABLE(at + kSymbolRow_rules);
+    uint sites = TABLE(at + kSymbolRow_sites);
     drawTable(MACHINE env, map, sites & 0xFFFFu, (sites >> 16u) & 255u, g.key, g.key);
-    runTable(MACHINE env, map, TABLE(at + 1u));
-    float selected = packedValue(MACHINE sites >> 24u, TABLE(at + 3u));
-    g.reads.uses = g.reads.uses | TABLE(at + 4u);
+    runTable(MACHINE env, map, TABLE(at + kSymbolRow_select));
+    float selected = packedValue(MACHINE sites >> 24u, TABLE(at + kSymbolRow_selected));
+    g.reads.uses = g.reads.uses | TABLE(at + kSymbolRow_uses);
     uint ruleCount = rules >> 16u;
     if (!(selected >= 0.0f) || ruleCount == 0u) {
         g.phase = kPhaseEnded;
         return;
     }
     uint number = uint(selected);
-    at = map.rules + ((rules & 0xFFFFu) + (number < ruleCount ? number : ruleCount - 1u)) * kRuleWords;
-    uint head = TABLE(at);
-    uint links = TABLE(at + 1u);
-    uint slots = TABLE(at + 4u);
+    at = map.rules + ((rules & 0xFFFFu) + (number < ruleCount ? number : ruleCount - 1u)) * kRuleRow_words;
+    uint head = TABLE(at + kRuleRow_head);
+    uint links = TABLE(at + kRuleRow_links);
+    uint slots = TABLE(at + kRuleRow_slots);
     drawTable(MACHINE env, map, links >> 16u, (head >> 16u) & 255u, g.key, g.key);
-    runTable(MACHINE env, map, TABLE(at + 2u));
+    runTable(MACHINE env, map, TABLE(at + kRuleRow_start));
     g.rule = head;
     g.links = links;
-    g.arriveCode = TABLE(at + 3u);
-    g.distance = larger(packedValue(MACHINE slots & 127u, TABLE(at + 5u)), site.minStep);
-    g.angle = limited(packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + 6u)), -kMostTurn, kMostTurn);
+    g.arriveCode = TABLE(at + kRuleRow_arrive);
+    g.distance = larger(packedValue(MACHINE slots & 127u, TABLE(at + kRuleRow_distance)), site.minStep);
+    g.angle = limited(packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + kRuleRow_angle)), -kMostTurn, kMostTurn);
     g.conditionSlots = slots >> 16u;
-    g.conditionValue = TABLE(at + 7u);
-    g.reads.uses = g.reads.uses | TABLE(at + 8u);
+    g.conditionValue = TABLE(at + kRuleRow_condition);
+    g.reads.uses = g.reads.uses | TABLE(at + kRuleRow_uses);
     g.attempt = 0u;
     g.turnedBack = false;
     g.fresh = true;
@@ -213,11 +213,11 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
     uint count = (head & 3u) == kRuleList ? (head >> 2u) & 63u : 0u;
     u64 key = g.key;
     for (uint i = first; i < first + count; ++i) {
-        at = map.successors + i * kSuccessorWords;
-        uint successor = TABLE(at);
-        runTable(MACHINE env, map, TABLE(at + 2u));
+        at = map.successors + i * kSuccessorRow_words;
+        uint successor = TABLE(at + kSuccessorRow_head);
+        runTable(MACHINE env, map, TABLE(at + kSuccessorRow_code));
         vec4 args = readArgs(MACHINE env, at, successor);
-        u64 child = successorKey(key, successor, TABLE(at + 1u));
+        u64 child = successorKey(key, successor, TABLE(at + kSuccessorRow_nameHash));
         uint symbol = successor & 0xFFFFu;
         bool branches = (successor & kPackedContinues) == 0u;
         WorkItem item = itemOf(entry, site, child, g.grammar, symbol, args, g.at.walk);
@@ -239,19 +239,17 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
 FN void stageNode(ExpandEnv env, WalkState w, uint normal, uint heading, bool seam, uint flags, uint index) {
     UintBuf stage = env.scratch;
     UNUSED(stage);
-    uint at = index * kStagedWords;
-    STAGED(at) = floatBitsToUint(w.position.x);
-    STAGED(at + 1u) = floatBitsToUint(w.position.y);
-    STAGED(at + 2u) = floatBitsToUint(w.position.z);
-    STAGED(at + 3u) = normal;
-    STAGED(at + 4u) = heading;
-    uint uv = packUv(w.walk.uv);
-    STAGED(at + 5u) = uv;
-    STAGED(at + 6u) = w.walk.place;
-    STAGED(at + 7u) = floatBitsToUint(w.walk.arc);
-    STAGED(at + 8u) = flags | (index << 8u);
-    STAGED(at + 9u) = seam ? packUv(w.leftUv) : uv;
-    STAGED(at + 10u) = seam ? w.leftPlace : w.walk.place;
+    StagedSample s;
+    s.position = w.position;
+    s.normal = normal;
+    s.heading = heading;
+    s.uv = packUv(w.walk.uv);
+    s.place = w.walk.place;
+    s.arc = w.walk.arc;
+    s.flags = flags | (index << 8u);
+    s.nearUv = seam ? packUv(w.leftUv) : s.uv;
+    s.nearPlace = seam ? w.leftPlace : s.place;
+    KEEP_StagedSample(s, STAGED, index * kStagedSample_words)
 }
 
 // Width of a texel where the walk goes, object metres.
@@ -383,10 +381,10 @@ FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, INO
         g.phase = kPhaseEnded;   // no successor
         return;
     }
-    uint at = map.successors + (g.links & 0xFFFFu) * kSuccessorWords;
-    uint head = TABLE(at);
+    uint at = map.successors + (g.links & 0xFFFFu) * kSuccessorRow_words;
+    uint head = TABLE(at + kSuccessorRow_head);
     g.args = readArgs(MACHINE env, at, head);
-    g.key = successorKey(g.key, head, TABLE(at + 1u));
+    g.key = successorKey(g.key, head, TABLE(at + kSuccessorRow_nameHash));
     g.symbol = head & 0xFFFFu;
     g.phase = g.count >= kChunkNodes ? kPhaseFull : kPhaseDerive;
 }

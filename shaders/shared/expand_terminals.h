@@ -124,12 +124,15 @@ FN void emitLeaf(LEAVES_PARAM ExpandEnv env, INOUT(NodeSite) site, LeafDraft dra
     takeLeaf(LEAVES env, site, draft);
 }
 
-// Of a terminal that is coloured leaf by leaf, whose slots stand at `at`; packed.
+// Of a terminal that is coloured leaf by leaf, whose row begins at `at`; packed.
 FN uint leafColour(MACHINE_PARAM ExpandEnv env, uint at) {
-    uint slots = TABLE(at);
-    return packLeafTint(0.0f, vec3(packedValue(MACHINE slots & 127u, TABLE(at + 1u)),
-                                   packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + 2u)),
-                                   packedValue(MACHINE (slots >> 16u) & 127u, TABLE(at + 3u))), 0u);
+    uint slots = TABLE(at + kTerminalRow_colour);
+    vec3 colour = vec3(0.0f);
+    for (uint i = 0u; i < 3u; ++i) {
+        uint immediate = TABLE(at + kTerminalRow_channels + i);
+        colour[i] = packedValue(MACHINE (slots >> (8u * i)) & 127u, immediate);
+    }
+    return packLeafTint(0.0f, colour, 0u);
 }
 
 // Runs the node's program. One loop over gates and bodies alike: a trip makes an instance, or evaluates a gate that
@@ -142,30 +145,30 @@ FN float runTerminals(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, TableBases map, 
     uint count = 0u;
     bool gate = true;
     for (uint t = first; t < end;) {
-        uint at = map.terminals + t * kTerminalWords;
-        uint head = TABLE(at);
-        uint gateCode = TABLE(at + 2u);
-        uint bodyCode = TABLE(at + 3u);
-        uint sites = TABLE(at + 4u);
-        uint slots = TABLE(at + 5u);
+        uint at = map.terminals + t * kTerminalRow_words;
+        uint head = TABLE(at + kTerminalRow_head);
+        uint gateCode = TABLE(at + kTerminalRow_gate);
+        uint bodyCode = TABLE(at + kTerminalRow_body);
+        uint sites = TABLE(at + kTerminalRow_sites);
+        uint slots = TABLE(at + kTerminalRow_slots);
         bool bark = (head & kPackedBark) != 0u;
         bool codeless = (gateCode >> 16u) == 0u && ((head >> 16u) & 255u) == 0u;
         bool body = !gate || codeless;
-        u64 key = childKey(site.key, TABLE(at + 1u), made);
+        u64 key = childKey(site.key, TABLE(at + kTerminalRow_site), made);
         SLOT(kSlotIndex) = float(made);
         drawTable(MACHINE env, map, body ? sites >> 16u : sites & 0xFFFFu, body ? head >> 24u : (head >> 16u) & 255u,
                   site.key, key);
         if (gate && codeless) {
-            count = instanceCount(packedValue(MACHINE slots & 127u, TABLE(at + 7u)), bark, barked, site.foot);
+            count = instanceCount(packedValue(MACHINE slots & 127u, TABLE(at + kTerminalRow_count)), bark, barked, site.foot);
             SLOT(kSlotCount) = float(count);
         }
         runTable(MACHINE env, map, body ? bodyCode : gateCode);
         if (!body) {
-            count = instanceCount(packedValue(MACHINE slots & 127u, TABLE(at + 7u)), bark, barked, site.foot);
+            count = instanceCount(packedValue(MACHINE slots & 127u, TABLE(at + kTerminalRow_count)), bark, barked, site.foot);
             SLOT(kSlotCount) = float(count);
         }
         bool makes = body && made < count;
-        float size = packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + 8u));
+        float size = packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + kTerminalRow_size));
         if (makes && bark) {
             radius = limited(size, 0.0f, 1e3f);
             SLOT(kSlotRadius) = radius;
@@ -174,19 +177,19 @@ FN float runTerminals(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, TableBases map, 
             count = 1u;
         }
         if (makes && !bark) {
-            uint more = TABLE(at + 6u);
-            float along = packedValue(MACHINE (slots >> 16u) & 127u, TABLE(at + 9u));
+            uint more = TABLE(at + kTerminalRow_moreSlots);
+            float along = packedValue(MACHINE (slots >> 16u) & 127u, TABLE(at + kTerminalRow_t));
             LeafDraft draft;
             draft.along = 0.0f;
             draft.span = 0.0f;
             draft.size = size;
-            draft.lift = packedValue(MACHINE slots >> 24u, TABLE(at + 10u));
-            draft.turn = packedValue(MACHINE more & 127u, TABLE(at + 11u));
-            draft.pitch = packedValue(MACHINE (more >> 8u) & 127u, TABLE(at + 12u));
-            draft.tint = packedValue(MACHINE (more >> 16u) & 127u, TABLE(at + 13u));
+            draft.lift = packedValue(MACHINE slots >> 24u, TABLE(at + kTerminalRow_lift));
+            draft.turn = packedValue(MACHINE more & 127u, TABLE(at + kTerminalRow_turn));
+            draft.pitch = packedValue(MACHINE (more >> 8u) & 127u, TABLE(at + kTerminalRow_pitch));
+            draft.tint = packedValue(MACHINE (more >> 16u) & 127u, TABLE(at + kTerminalRow_tint));
             draft.mesh = head & 255u;
-            draft.colour = TABLE(at + 14u);
-            if ((kFeatures & kFeatureColours) != 0u && (head & kPackedColoured) != 0u) draft.colour = leafColour(MACHINE env, at + 14u);
+            draft.colour = TABLE(at + kTerminalRow_colour);
+            if ((kFeatures & kFeatureColours) != 0u && (head & kPackedColoured) != 0u) draft.colour = leafColour(MACHINE env, at);
             draft.word = 0u;
             emitLeaf(LEAVES env, site, draft, along, key, cell);
         }
@@ -247,7 +250,7 @@ struct StemChunk {
 };
 FN StemChunk stemChunk(ExpandEnv env, uint chunk) {
     StemChunk c;
-    c.brief = readBrief(env, chunk);
+    c.brief = readChunkBrief(env.chunks, chunk);
     c.branch = readBranch(env, c.brief.branch);
     c.branchKey = readKey(env, c.branch.firstChunk);
     return c;
@@ -329,11 +332,11 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, IN(StemChunk)
     if (extrude != 0u) {
         uint grammar = brief.symbol >> 16u;
         TableBases map = basesOf(env, grammar);
-        uint program = map.extrudes + site.extrude * kExtrudeWords;
-        uint range = TABLE(program);
-        uint nameHash = TABLE(program + 1u);
-        uint inputs = TABLE(program + 2u);
-        uint layers = TABLE(program + 3u);
+        uint program = map.extrudes + site.extrude * kExtrudeRow_words;
+        uint range = TABLE(program + kExtrudeRow_terminals);
+        uint nameHash = TABLE(program + kExtrudeRow_nameHash);
+        uint inputs = TABLE(program + kExtrudeRow_inputs);
+        uint layers = TABLE(program + kExtrudeRow_layers);
         uint first = range & 0xFFFFu;
         float length = chunk.branch.extent;
         site.key = childKey(chunk.branchKey, nameHash, step);
@@ -345,10 +348,10 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, IN(StemChunk)
         place.instance = node.place >> 16u;
         place.level = 0u;
         resetMachine(MACHINE_ONLY);
-        SLOT(kSlotArg) = brief.args.x;
-        SLOT(kSlotArg + 1u) = brief.args.y;
-        SLOT(kSlotArg + 2u) = brief.args.z;
-        SLOT(kSlotArg + 3u) = brief.args.w;
+        SLOT(kSlotArg) = brief.args[0];
+        SLOT(kSlotArg + 1u) = brief.args[1];
+        SLOT(kSlotArg + 2u) = brief.args[2];
+        SLOT(kSlotArg + 3u) = brief.args[3];
         SLOT(kSlotBranchLength) = length;
         SLOT(kSlotToTip) = length - node.arc;
         SLOT(kSlotSpanLength) = site.stepEnd - site.stepStart;

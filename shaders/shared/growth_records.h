@@ -51,6 +51,7 @@ struct WorkItem {
     uint step;           // bit 31 kItemAgain, 23..0 steps of the grammar since its branch began
 };
 STATIC_SIZE(WorkItem, 80);
+RECORD_ACCESS(WorkItem)
 CONST_UINT(kItemAgain, 1u << 31u);   // the chunk `origin` is to be grown again in its place
 
 // Node::flags
@@ -80,6 +81,7 @@ struct Node {
     uint flags;
 };
 STATIC_SIZE(Node, 44);
+RECORD_ACCESS(Node)
 // No node any more, since a regrowth has taken it out; of its flags its place in its chunk stays.
 FN bool isGap(IN(Node) n) { return n.radius < 0.0f; }
 
@@ -141,7 +143,18 @@ struct Chunk {
     uint reads[3];
 };
 STATIC_SIZE(Chunk, 112);
+RECORD_ACCESS(Chunk)
 FN uint chunkNodes(uint marks) { return (marks >> 8u) & 255u; }
+
+// What the pass over nodes needs of a chunk.
+struct ChunkBrief {
+    u64 key;
+    float entryArc;      // = entry.arc
+    uint symbol;
+    float args[4];
+    uint previousNode, next, branch, firstNode, depth, step, marks;
+};
+RECORD_PART(ChunkBrief, Chunk)
 
 // A leaf or a loose terminal, 16 bytes, on the span that ends at `node`.
 // place, pose and tint are packed and unpacked by leaf_pose.h.
@@ -152,6 +165,7 @@ struct Leaf {
     uint tint;
 };
 STATIC_SIZE(Leaf, 16);
+RECORD_ACCESS(Leaf)
 
 // One painted layer, resampled to a surface's walk UV: single channel floats in [0,1], 8×8 tiles as texels.
 // address 0: nothing painted, every read is `fill`. size: of the surface's finest level, painted or not, so that a

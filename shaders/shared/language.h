@@ -37,6 +37,8 @@ using uint = uint32_t;
 using u64 = uint64_t;
 inline uint floatBitsToUint(float x) { uint b; std::memcpy(&b, &x, 4); return b; }
 inline float uintBitsToFloat(uint b) { float x; std::memcpy(&x, &b, 4); return x; }
+inline u64 packUint2x32(uvec2 pair) { return pair.x | u64(pair.y) << 32; }
+inline uvec2 unpackUint2x32(u64 x) { return {uint(x), uint(x >> 32)}; }
 }  // namespace espalier
 
 #else
@@ -63,4 +65,18 @@ inline float uintBitsToFloat(uint b) { float x; std::memcpy(&x, &b, 4); return x
 #define u64 uint64_t
 
 #endif
+
+// What tools/records is asked to write for a record, which is a struct of numbers, addresses and records. For
+// shaders/…/x.h that is a header records/x.h, which includes x.h. A kernel reads and writes eight bytes at a time where
+// it takes a whole record: software devices loop over lanes for each read or write by address, whatever its size.
+//   RECORD_ACCESS(R)    readR(buffer, index), writeR(buffer, index, record); buffer: of its BUFFER's type
+//   RECORD_PART(P, R)   readP(buffer, index): members that P shares with R, by their names or by "// = path" behind them
+//   RECORD_TEXELS(R)    in GLSL FETCH_R(FETCH, view, index): from texels of 16 bytes, which FETCH(view, i) fetches
+//   RECORD_WORDS(R)     FILL_R(r, WORD, at) and KEEP_R(r, WORD, at): the record r from and to the words WORD(at + i)
+//   RECORD_OFFSETS(R)   kR_member: its first word; kR_words: how many words a record takes
+#define RECORD_ACCESS(R)
+#define RECORD_PART(P, R)
+#define RECORD_TEXELS(R)
+#define RECORD_WORDS(R)
+#define RECORD_OFFSETS(R)
 #endif

@@ -167,7 +167,7 @@ FN uvec2 gridRuns(RoofEnv env, RoofGrid g) {
             run.touched = packRun(t0, t1, cells);
             run.whole = packRun(w0, w1, cells);
             if (i != 0u) run = joinedRuns(env.runs.v[g.firstRow + row], run);
-            writeRun(env, g.firstRow + row, run);
+            writeRoofRun(env.runs, g.firstRow + row, run);
             if (i + 1u == parts) sums = sums + uvec2(runCount(run.touched), runCount(run.whole));
         }
     }

@@ -83,7 +83,7 @@ FN uint shapesToDerive(RoofEnv env) {
 FN void queueShape(RoofEnv env, RoofScope shape) {
     uint at = roofAdd(env.waves.v[env.wave + 1u].count, 1u);
     if (at < env.shapeRoom) {
-        writeScope(env, at, shape);
+        writeRoofScope(env.next, at, shape);
         if ((at & (kRoofGroup - 1u)) == 0u) roofAdd(env.waves.v[env.wave + 1u].groups[0], 1u);
     }
 }
@@ -145,7 +145,7 @@ FN void writeGrid(RoofEnv env, RoofScope shape, uint house, uint mesh, INOUT(Roo
     g.atom = shape.atom;
     g.house = house | (env.plots.v[house].generation << 24u);
     g.firstRow = many ? place.row : kNoIndex;
-    writeGridRecord(env, place.grid, g);
+    writeRoofGrid(env.grids, place.grid, g);
     u64 hash = hashOfGrid(g, plotOf(env, house));
     tally.hash = tally.hash + uvec2(uint(hash), uint(hash >> 32));
     uvec2 cells = uvec2(1u, 1u);
@@ -216,7 +216,7 @@ FN bool mayTake(RoofEnv env, RuleRecord rule, RoofScope shape, uint firstPiece, 
         case kRuleJoin: {
             if (rule.extrude == 0u || k < 2u) return part == k;
             if (part != 2u && part != kPartGoesOn) return false;
-            PieceBrief piece = readPieceBrief(env, firstPiece + k - 2u);
+            RoofPiece piece = readPiece(env, firstPiece + k - 2u);
             return piece.upper != kNoIndex || (piece.kind == 3u && part == 2u);
         }
         case kRuleExplode: return outline && k >= 2u ? part >= 2u : part == k;

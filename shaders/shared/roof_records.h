@@ -33,6 +33,7 @@ struct RoofPiece {
     uint spare[3];      // records fill texels of 16 bytes
 };
 STATIC_SIZE(RoofPiece, 64);
+RECORD_TEXELS(RoofPiece)
 
 // 128 bytes. Tier 0's shape begins as the segment at the wall's foot.
 struct RoofAtom {
@@ -56,6 +57,7 @@ struct RoofAtom {
     float overhang;     // of the house, metres; 0: as the grammar says
 };
 STATIC_SIZE(RoofAtom, 128);
+RECORD_TEXELS(RoofAtom)
 // RoofAtom::style: 2 bits of the house, 0: chimneys as the grammar says, 1: none, 2: on every ridge; then what is among the outline's pieces.
 CONST_UINT(kAtomGoesOn, 1u << 17u);    // one with an atom above it
 CONST_UINT(kAtomRidged, 1u << 18u);    // a ridge
@@ -73,6 +75,7 @@ struct RoofRegion {
     uint spare[2];
 };
 STATIC_SIZE(RoofRegion, 80);
+RECORD_TEXELS(RoofRegion)
 
 // Convex; between a0 and a1. Its planes (a, b, c, d) hold where a x + b y + c z <= d. The last of them are upright cuts
 // between this part and its neighbours, which only a terminal meets that is clipped anyway.
@@ -82,6 +85,7 @@ struct RoofPart {
     uint counts;        // bits 7..0 planes, 15..8 of them the outline's own
 };
 STATIC_SIZE(RoofPart, 16);
+RECORD_TEXELS(RoofPart)
 
 // RoofScope::marks: bits 7..0 rules so far, then
 CONST_UINT(kShapeSegment, 1u << 8u);
@@ -114,6 +118,8 @@ struct RoofScope {
     float args[4];
 };
 STATIC_SIZE(RoofScope, 144);
+RECORD_ACCESS(RoofScope)
+RECORD_TEXELS(RoofScope)
 
 // RoofGrid::mesh: bits 7..0 mesh
 CONST_UINT(kGridRect, 1u << 8u);
@@ -139,6 +145,7 @@ struct RoofGrid {
     uint spare[3];
 };
 STATIC_SIZE(RoofGrid, 128);
+RECORD_ACCESS(RoofGrid)
 
 // Cells of one row of a grid: those that its region touches, and among them a run of whole ones. 8 bytes.
 struct RoofRun {
@@ -146,6 +153,7 @@ struct RoofRun {
     uint whole;
 };
 STATIC_SIZE(RoofRun, 8);
+RECORD_ACCESS(RoofRun)
 
 // A house's: where what is recorded of it counts from, and which of its grids are drawn.
 struct RoofPlot {

@@ -3,6 +3,7 @@
 // kernel specialised to it.
 #ifndef ESPALIER_SHARED_ROOF_TABLES_H
 #define ESPALIER_SHARED_ROOF_TABLES_H
+#include "records/rule_map.h"
 #include "shaders/shared/interpreter.h"
 #include "shaders/shared/roof_records.h"
 
@@ -22,8 +23,8 @@ FN Value roofValue(RoofEnv env, uint i) { return env.map.v[0].values.v[i]; }
 FN CodeWord roofCode(RoofEnv env, uint i) { return env.map.v[0].code.v[i]; }
 FN uint roofSiteAt(RoofEnv env, uint i) { return env.map.v[0].sites.v[i]; }
 #else
-layout(constant_id = 0) const uint kMapByAddress = 0u;
-layout(constant_id = 1) const uint kRoofUses = kRoofUsesAll;
+layout(constant_id = kConstantTablesByAddress) const uint kMapByAddress = 0u;
+layout(constant_id = kConstantRoofUses) const uint kRoofUses = kRoofUsesAll;
 #define ROOF_USES(kind) ((kRoofUses >> (kind) & 1u) != 0u)
 layout(binding = 0, scalar) uniform Environment { RoofEnv roofEnv; };
 layout(binding = 1, scalar) uniform Map { RuleMapRef roofMap; };
@@ -32,59 +33,41 @@ layout(binding = 2, scalar) uniform MapWords { uint mapWords[kUniformMapWords]; 
 // Word i of a section of the map, which begins where symbols do.
 #define MAP_WORD(section, i) \
     (kMapByAddress != 0u ? UintBuf(section).v[i] : mapWords[uint((uint64_t(section) - roofEnv.words) >> 2u) + (i)])
-Value mapValue(uint slot, uint immediate) { return Value(slot, uintBitsToFloat(immediate)); }
+#define SYMBOL_WORD(i) MAP_WORD(roofMap.symbols, i)
+#define RULE_WORD(i) MAP_WORD(roofMap.rules, i)
+#define SUCCESSOR_WORD(i) MAP_WORD(roofMap.successors, i)
+#define VALUE_WORD(i) MAP_WORD(roofMap.values, i)
+#define CODE_WORD(i) MAP_WORD(roofMap.code, i)
 
+// Compilers leave out the words of members that nobody asks for.
 SymbolRecord roofSymbol(RoofEnv env, uint i) {
-    uint at = 14u * i;
     SymbolRecord s;
-    s.firstRule = MAP_WORD(roofMap.symbols, at + 2u);
-    s.ruleCount = MAP_WORD(roofMap.symbols, at + 3u);
-    s.select.first = MAP_WORD(roofMap.symbols, at + 4u);
-    s.select.count = MAP_WORD(roofMap.symbols, at + 5u);
-    s.selected = mapValue(MAP_WORD(roofMap.symbols, at + 6u), MAP_WORD(roofMap.symbols, at + 7u));
-    s.firstSite = MAP_WORD(roofMap.symbols, at + 8u);
-    s.siteCount = MAP_WORD(roofMap.symbols, at + 9u);
-    s.inputs = MAP_WORD(roofMap.symbols, at + 10u);
-    s.layers = MAP_WORD(roofMap.symbols, at + 11u);
+    FILL_SymbolRecord(s, SYMBOL_WORD, i * kSymbolRecord_words)
     return s;
 }
 RuleRecord roofRule(RoofEnv env, uint i) {
-    uint at = 22u * i;
     RuleRecord r;
-    r.kind = MAP_WORD(roofMap.rules, at);
-    r.firstSuccessor = MAP_WORD(roofMap.rules, at + 1u);
-    r.successorCount = MAP_WORD(roofMap.rules, at + 2u);
-    r.extrude = MAP_WORD(roofMap.rules, at + 3u);
-    r.firstSite = MAP_WORD(roofMap.rules, at + 4u);
-    r.siteCount = MAP_WORD(roofMap.rules, at + 5u);
-    r.start.first = MAP_WORD(roofMap.rules, at + 6u);
-    r.start.count = MAP_WORD(roofMap.rules, at + 7u);
-    r.startInputs = MAP_WORD(roofMap.rules, at + 16u);
-    r.startLayers = MAP_WORD(roofMap.rules, at + 17u);
-    r.values = MAP_WORD(roofMap.rules, at + 21u);
+    FILL_RuleRecord(r, RULE_WORD, i * kRuleRecord_words)
     return r;
 }
-uint roofPartOf(RoofEnv env, uint i) { return MAP_WORD(roofMap.successors, 16u * i + 15u); }
-uint roofWordsOf(RoofEnv env, uint i) { return MAP_WORD(roofMap.successors, 16u * i + 5u); }
 SuccessorRecord roofSuccessor(RoofEnv env, uint i) {
-    uint at = 16u * i;
     SuccessorRecord s;
-    s.symbol = MAP_WORD(roofMap.successors, at);
-    s.nameHash = MAP_WORD(roofMap.successors, at + 1u);
-    s.ordinal = MAP_WORD(roofMap.successors, at + 2u);
-    s.flags = MAP_WORD(roofMap.successors, at + 3u);
-    s.code.first = MAP_WORD(roofMap.successors, at + 4u);
-    s.code.count = MAP_WORD(roofMap.successors, at + 5u);
-    for (uint a = 0u; a < 4u; ++a)
-        s.args[a] = mapValue(MAP_WORD(roofMap.successors, at + 7u + 2u * a), MAP_WORD(roofMap.successors, at + 8u + 2u * a));
-    s.part = MAP_WORD(roofMap.successors, at + 15u);
+    FILL_SuccessorRecord(s, SUCCESSOR_WORD, i * kSuccessorRecord_words)
     return s;
 }
+uint roofPartOf(RoofEnv env, uint i) { return SUCCESSOR_WORD(i * kSuccessorRecord_words + kSuccessorRecord_part); }
+uint roofWordsOf(RoofEnv env, uint i) {
+    return SUCCESSOR_WORD(i * kSuccessorRecord_words + kSuccessorRecord_code + kCodeRange_count);
+}
 Value roofValue(RoofEnv env, uint i) {
-    return mapValue(MAP_WORD(roofMap.values, 2u * i), MAP_WORD(roofMap.values, 2u * i + 1u));
+    Value v;
+    FILL_Value(v, VALUE_WORD, i * kValue_words)
+    return v;
 }
 CodeWord roofCode(RoofEnv env, uint i) {
-    return CodeWord(MAP_WORD(roofMap.code, 2u * i), uintBitsToFloat(MAP_WORD(roofMap.code, 2u * i + 1u)));
+    CodeWord c;
+    FILL_CodeWord(c, CODE_WORD, i * kCodeWord_words)
+    return c;
 }
 uint roofSiteAt(RoofEnv env, uint i) { return MAP_WORD(roofMap.sites, i); }
 #endif

@@ -22,6 +22,7 @@
 // drawSite. "Give inputs" means: fill the slots that the masks name; unnamed ones need not be filled.
 #ifndef ESPALIER_SHARED_RULE_MAP_H
 #define ESPALIER_SHARED_RULE_MAP_H
+#include "shaders/shared/constants.h"
 #include "shaders/shared/growth_records.h"
 
 ESPALIER_BEGIN
@@ -119,6 +120,8 @@ struct CodeWord {
     float immediate;   // what kSlotImmediate means in this word
 };
 STATIC_SIZE(CodeWord, 8);
+RECORD_WORDS(CodeWord)
+RECORD_OFFSETS(CodeWord)
 
 // A result: a machine slot after its code has run, or (kSlotImmediate) a constant. Read it with valueOf.
 struct Value {
@@ -126,11 +129,14 @@ struct Value {
     float immediate;
 };
 STATIC_SIZE(Value, 8);
+RECORD_WORDS(Value)
+RECORD_OFFSETS(Value)
 
 struct CodeRange {
     uint first, count;   // in RuleMapRef::code
 };
 STATIC_SIZE(CodeRange, 8);
+RECORD_OFFSETS(CodeRange)
 
 struct SymbolRecord {
     uint nameHash;       // FNV-1a 32
@@ -144,6 +150,8 @@ struct SymbolRecord {
     uint spare;
 };
 STATIC_SIZE(SymbolRecord, 56);
+RECORD_WORDS(SymbolRecord)
+RECORD_OFFSETS(SymbolRecord)
 
 CONST_UINT(kRuleNull, 0u);
 CONST_UINT(kRuleList, 1u);
@@ -189,6 +197,8 @@ struct RuleRecord {
                                  // condition that is the same in every direction, after `arrive`; 0: none
 };
 STATIC_SIZE(RuleRecord, 88);
+RECORD_WORDS(RuleRecord)
+RECORD_OFFSETS(RuleRecord)
 
 CONST_UINT(kSuccessorContinues, 1u);
 // Of roofs: the symbol's only rule is a terminal that changes nothing; bits 15..8 its mesh.
@@ -205,6 +215,8 @@ struct SuccessorRecord {
     uint part;           // of roofs: which of the rule's shapes it takes
 };
 STATIC_SIZE(SuccessorRecord, 64);
+RECORD_WORDS(SuccessorRecord)
+RECORD_OFFSETS(SuccessorRecord)
 
 // What is drawn on a span. Key of its draws: childKey(key, nameHash, step), key being the branch's.
 // argMask: kSlotArg + i is read; the compiler allows it only for arguments that a branch hands on unchanged, so
@@ -260,7 +272,7 @@ CONST_UINT(kFeatureJoints, 64u);    // and the paper's tangents
 CONST_UINT(kRuleFeatures, 31u);
 CONST_UINT(kAllFeatures, 127u);
 #if !defined(__cplusplus) && defined(ESPALIER_TABLES)
-layout(constant_id = 2) const uint kFeatures = kAllFeatures;
+layout(constant_id = kConstantFeatures) const uint kFeatures = kAllFeatures;
 #else
 CONST_UINT(kFeatures, kAllFeatures);
 #endif

@@ -21,7 +21,7 @@ Buffer filled(Device& device, size_t words, uint32_t value) {
 // lanes: that rank a block's items.
 size_t wordsBeyond(test::EmitPipeline& gpu, const char* shader, bool leaves, uint32_t lanes) {
     Device& device = *gpu.device;
-    Result<Program> program = Program::compute(device, shader, {.constants = {{5, lanes}}});
+    Result<Program> program = Program::compute(device, shader, {.constants = {{kConstantLanes, lanes}}});
     REQUIRE(program);
     EmitState given{};
     given.listed[leaves] = kBlocks * kBlockItems - 7;

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/expand/growth.hpp"
+#include "runtime/expand/growth_data.hpp"
 #include "shaders/shared/exact.h"
 
 namespace espalier {

@@ -56,7 +56,8 @@ function(espalier_defaults target)
     ${ESPALIER_WERROR}
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # GCC 12 warns of std::string falsely
   target_compile_definitions(${target} PRIVATE ESPALIER_VERSION="${PROJECT_VERSION}")
-  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR})
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR} ${ESPALIER_GENERATED})
+  add_dependencies(${target} espalier_generated)
 endfunction()
 
 # A static library made of all .cpp files of the calling folder.
