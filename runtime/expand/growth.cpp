@@ -69,7 +69,7 @@ void Growth::recordWaves(Pass& pass, const Program& march, const ExpandEnv& base
         env.items = addressOf<WorkItemBuf>(items_[w & 1]);
         env.nextItems = addressOf<WorkItemBuf>(items_[(w + 1) & 1]);
         const uint64_t groups = w * sizeof(Wave) + offsetof(Wave, groups);
-        pass.dispatchIndirect(march, waves_, groups, env, {uniformTables()});
+        pass.dispatchIndirect(march, waves_, groups, env, {uniformTables(), lanes_});
         pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect);
     }
 }
@@ -108,11 +108,11 @@ void Growth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimi
         }
         if (capped) {
             env.phase = kTerminalsCount;
-            pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables()});
+            pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables(), lanes_});
             pass.barrier(Use::compute, Use::compute);
         }
         env.phase = kTerminalsWrite;
-        pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables()});
+        pass.dispatchIndirect(terminals, status_, kNodes, env, {uniformTables(), lanes_});
         pass.barrier(Use::compute, Use::compute);
     }
     Pass pass(commands, "expand fit");

@@ -18,6 +18,7 @@
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/gpu/commands.hpp"
 #include "shaders/expand/compact.h"
+#include "shaders/expand/lane_words.h"
 #include "shaders/shared/expand_again.h"
 #include "shaders/shared/expand_tables.h"
 
@@ -123,6 +124,12 @@ class Growth {
         if (limits.tangents == TangentMode::paper) return kDensityCells + 3 * (room_.nodes + frozen);
         return limits.leafDensityCap > 0 ? kDensityCells : 1;
     }
+    // Memory of the lanes of the march's widest wave and of a pass over all nodes, as far as there is room for them.
+    uint64_t laneBytes() const {
+        const uint64_t march = laneGroupsOf(room_.items, kItemsPerGroupAgain) * uint64_t(kLaneWords);
+        const uint64_t nodes = std::max(laneGroupsOf(room_.nodes, kNodesPerGroup), spreadGroups()[0]) * uint64_t(kSlotWords);
+        return std::max(march, nodes) * kExpandGroup * 4;
+    }
     const Program& kernel(GrowthKernel kernel) const { return kernels_.get(kernel, tablesByAddress_); }
     static GrowthKernel marchOf(const GrowthLimits& limits) {
         return limits.walk == WalkMode::paper ? GrowthKernel::marchPaper : GrowthKernel::march;
@@ -205,7 +212,7 @@ class Growth {
     bool tablesByAddress_ = false;  // else from a uniform buffer, which holds kUniformTableWords
     DoubleBuffered<Plants> plants_;
     DoubleBuffered<Links> links_;
-    Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, density_, readback_;
+    Buffer items_[2], lanes_, status_, pruned_, waves_, grammars_, tables_, noTables_, density_, readback_;
     Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_, touched_, nodesWent_, leavesWent_;
     bool touchedIsNew_ = false;  // and holds nothing yet
     bool chained_ = false;       // leaves on the nodes that are drawn are chained

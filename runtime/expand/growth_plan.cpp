@@ -169,7 +169,7 @@ uint32_t lastWave(const GrowthCut& cut) {
 Wave firstWave(uint32_t seeds, const GrowthRoom& room) {
     Wave wave{};
     wave.count = std::min(seeds, room.items);
-    wave.groups[0] = groupsOf(wave.count, kItemsPerGroup);
+    wave.groups[0] = laneGroupsOf(wave.count, kItemsPerGroup);
     wave.groups[1] = wave.groups[2] = 1;
     return wave;
 }

@@ -6,6 +6,7 @@
 
 #include "runtime/expand/growth_data.hpp"
 #include "shaders/shared/expand_env.h"
+#include "shaders/shared/expand_rows.h"
 
 namespace espalier {
 

@@ -47,6 +47,7 @@ Status Growth::makeKernels(const GrowthInputs& inputs) {
     if (inputs.limits.leafDensityCap > 0) features |= kFeatureDensity;
     if (inputs.limits.tangents == TangentMode::paper) features |= kFeatureJoints;
     kernels_.use(features);
+    if (Status made = ensure(lanes_, "growth lanes", laneBytes()); !made) return made;
     return kernels_.make({marchOf(inputs.limits), GrowthKernel::terminals, GrowthKernel::fit}, tablesByAddress_);
 }
 
@@ -184,7 +185,7 @@ uint64_t Growth::reserved() const {
     for (const Plants& p : plants_.sets) bytes += p.nodes.size() + p.leaves.size();
     for (const Links& l : links_.sets) bytes += l.chunks.size() + l.branches.size();
     for (const Buffer* b :
-         {&items_[0], &items_[1], &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_, &density_, &again_,
+         {&items_[0], &items_[1], &lanes_, &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_, &density_, &again_,
           &marks_, &lists_, &edits_, &results_, &firstLeaves_, &nextLeaves_, &touched_, &nodesWent_, &leavesWent_})
         bytes += b->size();
     return bytes;
@@ -229,6 +230,7 @@ void Growth::trim() {
         uint64_t bytes;
     } rows[] = {{&items_[0], room_.items * sizeof(WorkItem)},
                 {&items_[1], room_.items * sizeof(WorkItem)},
+                {&lanes_, lanes_ ? laneBytes() : 0},
                 {&links_.spare().chunks, again.chunks},
                 {&links_.spare().branches, again.branches},
                 {&marks_, again.marks},

@@ -38,23 +38,49 @@ struct WaveItems {
 struct Lane {
     ExpandEnv env;
     ChunkGrowth c;
+    TableBases map;
+    WorldFrame frame;  // of the instance that the chunk grows on
     Machine machine;
     bool live = false;
     uint32_t stage[kChunkNodes * kStagedSample_words];
 };
 
+inline void decideLane(Lane& lane) {
+    Grower& g = lane.c.g;
+    noteWay(lane.c.site.sceneLayers, g.trial, g.reads);
+    const uint instance = g.trial.walk.place >> 16;
+    if (instance != lane.frame.instance) lane.frame = frameOf(lane.env.surfaces, instance, lane.c.site.inputs);
+    if (!decides(g.progress.phase, g.step.arrived)) return;
+    const GrowthSite& site = lane.c.site;
+    tellPlace(lane.machine, lane.env, lane.frame, site, g.shape.grammar, g.trial,
+              g.progress.steps + (g.step.arrived ? 1 : 0));
+    if (g.step.arrived && conditionHolds(lane.machine, lane.env, lane.map, g)) {
+        const uint staged = g.step.pending;
+        if (g.step.laying != kStepKept) layStep(lane.env, site, g);
+        if (notesStaged(site.sceneLayers, g.step.pending - staged))
+            noteStaged(lane.env, g.progress.count, g.progress.count + g.step.pending, g.reads);
+        KEEP_STAND(g);
+        finishStep(lane.machine, lane.env, lane.map, g);
+    }
+    if (g.progress.phase == kPhaseDerive) deriveRules(lane.machine, lane.env, lane.map, site, lane.c.item, g);
+}
+
 // Grows the lane's chunk, and those that it takes after, until a stretch is to be walked. False: nothing is left.
 ESPALIER_WHOLE bool growToStretch(Lane& lane, WaveItems& items, GrowthTally& tally) {
     for (;;) {
-        if (lane.live && growing(lane.c.g)) {
-            decide(lane.machine, lane.env, lane.c);
-            if (lane.c.g.phase == kPhaseMarch) return true;
-            endTrip(lane.c.g);
+        if (lane.live && growing(lane.c.g.progress)) {
+            decideLane(lane);
+            if (lane.c.g.progress.phase == kPhaseMarch) return true;
+            endTrip(lane.c.g.progress);
         } else {
             if (lane.live) endChunk(lane.env, lane.c, tally);
+            lane.live = false;
             const uint item = items.take(std::atomic_ref(lane.env.status.v[0].nodes).load(std::memory_order_relaxed));
-            lane.live = item != kNoIndex && beginChunk(lane.machine, lane.env, lane.env.items.v[item], lane.c);
             if (item == kNoIndex) return false;
+            lane.live = beginChunk(lane.machine, lane.env, lane.env.items.v[item], lane.c);
+            if (!lane.live) continue;
+            lane.map = basesOf(lane.env, lane.c.g.shape.grammar);
+            lane.frame = frameOf(lane.env.surfaces, lane.c.g.trial.walk.place >> 16, lane.c.site.inputs);
         }
     }
 }
@@ -65,9 +91,9 @@ ESPALIER_WHOLE void marchLanes(Lane* lanes, uint32_t marching, WideWalks* wide) 
     for (uint32_t i = 0; wide && i < kWalkLanes; ++i) {
         if ((marching >> i & 1) == 0) continue;
         const Grower& g = lanes[i].c.g;
-        putWalk(*wide, i, surfaces, lanes[i].c.site.level, g.fresh ? g.at : g.trial,
-                g.fresh ? g.distance : g.remaining);
-        if (!g.fresh) continue;
+        putWalk(*wide, i, surfaces, lanes[i].c.site.level, g.step.fresh ? g.at : g.trial,
+                g.step.fresh ? g.rule.distance : g.remaining);
+        if (!g.step.fresh) continue;
         wide->turns[i] = 1;
         wide->angle[i] = attemptAngle(g);
     }
@@ -79,7 +105,7 @@ ESPALIER_WHOLE void marchLanes(Lane* lanes, uint32_t marching, WideWalks* wide) 
         if (!wide) {
             marchOn(env, c.site, c.g);
         } else {
-            if (c.g.fresh) setOut(c.g);
+            if (c.g.step.fresh) setOut(c.g);
             if ((landed >> i & 1) != 0) {
                 takeWalk(*wide, i, c.g.trial);
                 c.g.remaining = wide->remaining[i];
@@ -90,7 +116,7 @@ ESPALIER_WHOLE void marchLanes(Lane* lanes, uint32_t marching, WideWalks* wide) 
                 takeStretch(env, c.site, c.g, event, packOct(normal), packOct(c.g.trial.walk.direction));
             }
         }
-        endTrip(c.g);
+        endTrip(c.g.progress);
     }
 }
 

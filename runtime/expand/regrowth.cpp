@@ -129,7 +129,7 @@ Status Growth::uploadAgain(Commands& commands, const GrowthInputs& inputs, const
     for (uint32_t index : seeds.planted) items.push_back(all[index]);
     std::vector<Wave> waves(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
     waves[0].count = waves[0].announced = uint32_t(items.size());
-    waves[0].groups[0] = groupsOf(waves[0].count, kItemsPerGroupAgain);
+    waves[0].groups[0] = laneGroupsOf(waves[0].count, kItemsPerGroupAgain);
     if (Status sent = allDone({uploadStatus(commands, inputs, s), commands.upload(again_, state),
                                commands.upload(edits_, std::as_bytes(edits)), commands.upload(waves_, waves),
                                commands.upload(items_[0], items)});
@@ -185,7 +185,7 @@ void Growth::recordAgain(Commands& commands, ExpandEnv env) {
         pass.dispatch(kernel(GrowthKernel::work), groups, env);
         pass.barrier(Use::compute, Use::compute);
         env.phase = kTerminalsAgain;
-        pass.dispatch(kernel(GrowthKernel::terminalsAgain), groups, env, {uniformTables()});
+        pass.dispatch(kernel(GrowthKernel::terminalsAgain), groups, env, {uniformTables(), lanes_});
         pass.barrier(Use::compute, Use::compute);
     }
     Pass pass(commands, "expand fit");
@@ -220,7 +220,7 @@ Status Growth::growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Outco
         env.phase = lastWave(noCut(inputs.limits));
         {
             Pass pass(*commands, "expand march");
-            recordWaves(pass, kernel(GrowthKernel::marchAgain), true, env, first, last);
+            recordWaves(pass, kernel(GrowthKernel::marchAgain), env, first, last);
         }
         env.wave = last;
         recordAgain(*commands, env);

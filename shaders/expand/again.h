@@ -80,7 +80,7 @@ FN uint nextChunk(ChunkBuf chunks, uint root, uint at, bool prune) {
 
 // An item that grows a chunk again in its place.
 FN WorkItem itemAgain(ExpandEnv env, uint chunk) {
-    WorkItem item;
+    WorkItem item = {};
     item.key = env.chunks.v[chunk].key;
     item.walk = env.chunks.v[chunk].entry;
     item.symbol = env.chunks.v[chunk].symbol;
@@ -97,7 +97,7 @@ FN void queueAgain(ExpandEnv env, WorkItemBuf items, uint wave, uint chunk, uint
     uint at = atomicAdd(env.waves.v[wave].count, 1u);
     if (at < env.itemCapacity) writeWorkItem(items, at, itemAgain(env, chunk));
     uint before = atomicAdd(env.waves.v[wave].announced, 1u);
-    uint added = groupsAdded(before, 1u, itemsPerGroup);
+    uint added = laneGroupsAdded(before, 1u, itemsPerGroup);
     if (added > 0u) atomicAdd(env.waves.v[wave].groups[0], added);
 }
 

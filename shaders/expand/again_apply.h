@@ -14,7 +14,7 @@ struct GoneTally {
     uint inserted, feet, deadEnds, stopped, leaves;
 };
 FN GoneTally nothingGone() {
-    GoneTally t;
+    GoneTally t = {};
     t.hash = uvec2(0u, 0u);
     t.inserted = 0u;
     t.feet = 0u;

@@ -18,7 +18,7 @@ struct ChunkReads {
     uint words[3];   // Chunk::reads
 };
 FN ChunkReads readReads(ExpandEnv env, uint chunk) {
-    ChunkReads r;
+    ChunkReads r = {};
     r.marks = env.chunks.v[chunk].marks;
     r.uses = env.chunks.v[chunk].uses;
     for (uint i = 0u; i < 3u; ++i) r.words[i] = env.chunks.v[chunk].reads[i];

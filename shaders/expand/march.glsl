@@ -1,11 +1,141 @@
 // One wave of the queue. Chunks are unlike in length, and lanes run in lockstep: when half of a subgroup's lanes have
 // ended theirs, these are published and the lanes take further items.
+//
+// Each part of a trip reads what it is about from the lane's memory, and keeps there what it has changed.
+#include "shaders/expand/lane_memory.glsl"
 #include "shaders/shared/expand_grow.h"
 
 layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
+bool begin(uint item) {
+    ChunkGrowth c = {};
+    if (!beginChunk(env, readWorkItem(env.items, item), c)) return false;
+    keepShape(c.g);
+    keepRule(c.g);
+    keepStep(c.g);
+    keepProgress(c.g);
+    keepReads(c.g);
+    keepWalk(c.g.trial, kLaneTrial);
+    KEEP_GrowthSite(c.site, LANE_WORD, kLaneSite)
+    LANE_WORD(kLaneItem) = item;
+    return true;
+}
+
+uint phaseNow() { return LANE_WORD(kLaneProgress + kChunkProgress_phase); }
+TableBases laneTables() { return basesOf(env, LANE_WORD(kLaneShape + kPendingShape_grammar)); }
+
+void note() {
+    uint sceneLayers = LANE_WORD(kLaneSite + kGrowthSite_sceneLayers);
+    if ((kFeatures & kFeatureSurface) == 0u || sceneLayers == 0u) return;
+    Grower g = laneGrower();
+    noteWay(sceneLayers, laneWalk(kLaneTrial), g.reads);
+    keepReads(g);
+}
+void tell(bool arrived) {
+    WalkState trial = laneWalk(kLaneTrial);
+    GrowthSite site = laneSite();
+    Grower g = laneGrower();
+    tellPlace(env, frameOf(env.surfaces, trial.walk.place >> 16u, site.inputs), site, g.shape.grammar, trial,
+              g.progress.steps + (arrived ? 1u : 0u));
+}
+bool askCondition() {
+    Grower g = laneGrower();
+    bool good = conditionHolds(env, laneTables(), g);
+    keepStep(g);
+    keepReads(g);
+    LANE_WORD(kLaneProgress + kChunkProgress_phase) = g.progress.phase;
+    return good;
+}
+void lay() {
+    Grower g = laneGrower();
+    uint staged = g.step.pending;
+    layStep(env, laneSite(), g);
+    uint laid = g.step.pending - staged;
+    LANE_WORD(kLaneStep + kStepState_pending) = g.step.pending;
+    LANE_WORD(kLaneStep + kStepState_ground) = g.step.ground;
+    if (!notesStaged(LANE_WORD(kLaneSite + kGrowthSite_sceneLayers), laid)) return;
+    Grower h = laneGrower();
+    noteStaged(env, h.progress.count, h.progress.count + h.step.pending, h.reads);
+    keepReads(h);
+}
+void finish() {
+    Grower g = laneGrower();
+    finishStep(env, laneTables(), g);
+    keepShape(g);
+    keepStep(g);
+    keepProgress(g);
+}
+void derive() {
+    Grower g = laneGrower();
+    deriveRules(env, laneTables(), laneSite(), readWorkItem(env.items, LANE_WORD(kLaneItem)), g);
+    keepShape(g);
+    keepRule(g);
+    keepStep(g);
+    keepProgress(g);
+    keepReads(g);
+}
+void decide() {
+    bool arrived = LANE_WORD(kLaneStep + kStepState_arrived) != 0u;
+    note();
+    if (!decides(phaseNow(), arrived)) return;
+    tell(arrived);
+    if (arrived && askCondition()) {
+        if (LANE_WORD(kLaneStep + kStepState_laying) != kStepKept) lay();
+        keepWalk(laneWalk(kLaneTrial), kLaneStand);
+        finish();
+    }
+    if (phaseNow() == kPhaseDerive) derive();
+}
+
+void march() {
+    WalkState trial = {};
+    float remaining = {};
+    if (LANE_WORD(kLaneStep + kStepState_fresh) != 0u) {
+        Grower g = laneGrower();
+        setOut(g);
+        keepStep(g);
+        trial = g.trial;
+        remaining = g.remaining;
+        turnWalk(env, trial, attemptAngle(g));
+    } else {
+        trial = laneWalk(kLaneTrial);
+        remaining = uintBitsToFloat(LANE_WORD(kLaneRemaining));
+    }
+    vec3 normal = {};
+    uint event = advanceWalk(env, LANE_WORD(kLaneSite + kGrowthSite_level), trial, remaining, normal);
+    keepWalk(trial, kLaneTrial);
+    LANE_WORD(kLaneRemaining) = floatBitsToUint(remaining);
+    Grower g = laneGrower();
+    g.trial = trial;
+    takeStretch(env, laneSite(), g, event, packOct(normal), packOct(headingOf(env, trial)));
+    keepStep(g);
+    LANE_WORD(kLaneProgress + kChunkProgress_phase) = g.progress.phase;
+}
+
+// Returns whether the chunk grows on.
+bool trip() {
+    decide();
+    if (phaseNow() == kPhaseMarch) march();
+    Grower g = laneGrower();
+    endTrip(g.progress);
+    LANE_WORD(kLaneProgress + kChunkProgress_phase) = g.progress.phase;
+    LANE_WORD(kLaneProgress + kChunkProgress_trips) = g.progress.trips;
+    return growing(g.progress);
+}
+
+void end() {
+    ChunkGrowth c = {};
+    c.g = laneGrower();
+    c.site = laneSite();
+    c.item = readWorkItem(env.items, LANE_WORD(kLaneItem));
+    GrowthTally tally = emptyTally();
+    endChunk(env, c, tally);
+    addTally(env, tally);
+}
+
 void main() {
+    openLane();
     uint wanted = env.waves.v[env.wave].count;
     uint count = min(wanted, env.itemCapacity);
     if (wanted > count) atomicMax(env.status.v[0].items, wanted);
@@ -13,29 +143,27 @@ void main() {
 #ifdef ESPALIER_AGAIN
     openAgain(env);
 #endif
-    ChunkGrowth c;
-    c.g.phase = kPhaseEnded;
-    bool live = false;
+    bool live = false;   // the lane has a chunk,
+    bool grows = false;  // which hasn't ended
     uint taken = 0u;
-    GrowthTally tally = emptyTally();
     while (subgroupAny(live || more)) {
         if (!live && more) {
             uint i = atomicAdd(env.waves.v[env.wave].taken, 1u);
             bool there = i < count;
-            if (there) live = beginChunk(env, readWorkItem(env.items, i), c);
+            if (there) live = begin(i);
+            grows = live && phaseNow() <= kPhaseMarch;
             taken = taken + 1u;
-            more = there && (taken < kMostTaken || count > kMostGroups * kItemsPerGroup);
+            more = there && (taken < kMostTaken || count > kLaneGroups * kItemsPerGroup);
         }
         uint few = subgroupAny(more) ? min(gl_SubgroupSize, gl_WorkGroupSize.x) / 2u : 0u;
         uint busy = few + 1u;
         while (busy > few) {
-            if (live && growing(c.g)) growOn(env, c);
-            busy = subgroupBallotBitCount(subgroupBallot(live && growing(c.g)));
+            if (grows) grows = trip();
+            busy = subgroupBallotBitCount(subgroupBallot(grows));
         }
-        if (live && !growing(c.g)) {
-            endChunk(env, c, tally);
+        if (live && !grows) {
+            end();
             live = false;
         }
     }
-    addTally(env, tally);
 }

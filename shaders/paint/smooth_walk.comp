@@ -20,7 +20,7 @@ bool placeAlong(WalkState w, float metres, out vec2 uv) {
     if (length2(step) < w.clear) return true;
     float remaining = metres;
     uint event = kWalkRetry;
-    vec3 normal;
+    vec3 normal = {};
     while (walkGoesOn(event)) event = walkAdvance(env.surfaces, 0u, w, remaining, normal);
     uv = w.walk.uv;
     // Another surface's layer is another's; what this one has is read.
@@ -28,7 +28,7 @@ bool placeAlong(WalkState w, float metres, out vec2 uv) {
 }
 
 void walked(uvec2 at, uint chart, uint to) {
-    WalkState w;
+    WalkState w = {};
     vec2 uv = (vec2(at) + 0.5) * rcpExact(float(env.size));
     // Any tangent will do to begin with.
     bool found = startWalk(env.surfaces, 0u, (env.instance << 16u) | chart, uv, vec3(0.0), w);
@@ -56,7 +56,7 @@ uint farSide(uvec2 at, Texel texel) {
     if (best > 8.5) return kNoPlace;
     vec3 way = texel.position - positionAt(from.x, from.y);
     vec2 uv = (vec2(from) + 0.5) * rcpExact(float(env.size));
-    WalkState w;
+    WalkState w = {};
     bool there = startWalk(env.surfaces, 0u, (env.instance << 16u) | texelChart(texel.bits), uv, way, w) &&
                  placeAlong(w, length3(way) * rcpExact(env.perScale), uv);
     return there ? packedPlace(uv) : kNoPlace;

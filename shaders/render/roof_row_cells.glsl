@@ -13,7 +13,7 @@ struct CellFate {
 };
 CellFate cellFate(RoofDrawEnv env, RoofGrid g, RoofMesh mesh, uint column, uint row) {
     CellBox box = cellBox(g, mesh, column, row);
-    CellFate fate;
+    CellFate fate = {};
     fate.rectangleCuts = 0u;
     if ((g.mesh & kGridRect) != 0u) {
         if (box.low.x < -kCellSlack) fate.rectangleCuts |= kCutLeft;
@@ -47,7 +47,7 @@ bool cellHidden(RoofDrawEnv env, RoofGrid g, float share, uint column, uint row)
 
 RoofRun runOf(RoofDrawEnv env, RoofGrid g, uint row) {
     if (g.firstRow != kNoIndex) return env.roofs.runs.v[g.firstRow + row];
-    RoofRun run;
+    RoofRun run = {};
     run.touched = 1u << 16u;
     run.whole = g.region == kNoIndex ? 1u << 16u : 0u;
     return run;

@@ -23,7 +23,7 @@ void main() {
         uint column = runFirst(run.touched) + k;
         if (drops && cellHidden(env, g, item.share, column, item.row)) continue;
         uint cell = column | (item.row << 16u);
-        CellFate fate;
+        CellFate fate = {};
         fate.whole = column - runFirst(run.whole) < runCount(run.whole);
         if (!fate.whole) fate = cellFate(env, g, mesh, column, item.row);
         if (fate.whole) {

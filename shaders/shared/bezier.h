@@ -45,7 +45,7 @@ FN Span smoothSpan(vec3 p0, vec3 t0, vec3 p3, vec3 t3) {
     vec3 chord = p3 - p0;
     float farthest = larger(absolute(p0.x), larger(absolute(p0.y), absolute(p0.z)));
     float least = larger(0.2f * length3(chord), 5e-5f * farthest);
-    Span s;
+    Span s = {};
     s.p0 = p0;
     s.b1 = p0 + t0 * (larger(dot3(t0, chord), least) * 0.333333333f);
     s.b2 = p3 - t3 * (larger(dot3(t3, chord), least) * 0.333333333f);
@@ -74,7 +74,7 @@ FN Span levelSpan(Span s, vec3 t0, vec3 n0, bool crease0, vec3 t3, vec3 n3, bool
 // The straight span, for the two lesser smoothnesses.
 FN Span straightSpan(vec3 p0, vec3 p3) {
     vec3 third = (p3 - p0) * 0.333333333f;
-    Span s;
+    Span s = {};
     s.p0 = p0;
     s.b1 = p0 + third;
     s.b2 = p3 - third;
@@ -105,7 +105,7 @@ FN float spanLength(Span s) {
 FN Frame spanFrame(Span s, float u, vec3 n0, vec3 n3) {
     vec3 velocity = spanVelocity(s, u);
     float v2 = dot3(velocity, velocity);
-    Frame f;
+    Frame f = {};
     f.along = v2 > 1e-30f ? velocity * rsqrtExact(v2) : unit3(s.p3 - s.p0);
     vec3 n = n0 * (1.0f - u) + n3 * u;
     n = n - f.along * dot3(f.along, n);

@@ -81,6 +81,13 @@ struct ExpandEnv {
 STATIC_SIZE(ExpandEnv, 128);
 
 CONST_UINT(kMostGroups, 65535u);        // of a dispatch
+// Of passes whose lanes have memory of their own (lane_slots.glsl): as many as a large GPU holds at a time.
+CONST_UINT(kLaneGroups, 1792u);
+CONST_UINT(kLanesBeside, 8u);           // lanes that have theirs side by side
+CONST_UINT(kLaneSlots, 120u);           // words of that memory where the machine's slots begin, and the chunk's samples
+CONST_UINT(kSlotWords, (kMachineSlots + 3u) / 4u * 4u);
+CONST_UINT(kLaneStage, kLaneSlots + kSlotWords);
+CONST_UINT(kLaneWords, kLaneStage + 352u);   // and the samples' words (lane_words.h)
 CONST_UINT(kItemsPerGroupAgain, 16u);   // of a regrowth: its few items shall not all go to one thread
 
 #ifdef __cplusplus
@@ -178,6 +185,14 @@ FN uint groupsOf(uint count, uint each) {
 }
 // What items [first, first + count) add to that.
 FN uint groupsAdded(uint first, uint count, uint each) { return groupsOf(first + count, each) - groupsOf(first, each); }
+// The same of passes whose lanes have memory of their own.
+FN uint laneGroupsOf(uint count, uint each) {
+    uint groups = groupsOf(count, each);
+    return groups < kLaneGroups ? groups : kLaneGroups;
+}
+FN uint laneGroupsAdded(uint first, uint count, uint each) {
+    return laneGroupsOf(first + count, each) - laneGroupsOf(first, each);
+}
 
 ESPALIER_END
 #endif

@@ -66,13 +66,13 @@ FN uint publishNodes(ExpandEnv env, uint chunk, uint count) {
     uint first = count > 0u ? atomicAdd(env.status.v[0].nodes, count) : 0u;
     bool fits = first + count <= env.status.v[0].nodeCapacity;
     if (count > 0u) {
-        uint added = groupsAdded(first, count, kNodesPerGroup);
+        uint added = laneGroupsAdded(first, count, kNodesPerGroup);
         if (fits && added > 0u) atomicAdd(env.status.v[0].nodeGroups[0], added);
     }
     for (uint i = 0u; i < (fits ? count : 0u); ++i) {
-        StagedSample s;
+        StagedSample s = {};
         FILL_StagedSample(s, STAGED, i * kStagedSample_words)
-        Node node;
+        Node node = {};
         node.position = s.position;
         node.normal = normalWithHeading(s.normal, s.heading);
         node.tangent = tangentWithHeading(s.heading, s.heading);
@@ -109,12 +109,13 @@ FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, float lengt
 }
 
 FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower) g, uint previousNode, bool goesOn) {
-    float length = g.at.walk.arc;
+    Walk stand = STAND(g).walk;
+    float length = stand.arc;
     uint branch = item.branch;
-    uint first = publishNodes(env, site.chunk, g.count);
-    if (g.count > 0u || branch != kNoIndex) branch = publishBranch(env, item, site, length);
+    uint first = publishNodes(env, site.chunk, g.progress.count);
+    if (g.progress.count > 0u || branch != kNoIndex) branch = publishBranch(env, item, site, length);
 
-    Chunk c;
+    Chunk c = {};
     c.key = item.key;
     c.entry = item.walk;
     c.symbol = item.symbol;
@@ -128,11 +129,11 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower
     c.branch = branch;
     c.firstNode = branch == kNoIndex ? item.seed : first;
     c.depth = item.depth;
-    c.step = (item.step & 0xFFFFFFu) | ((g.refused < 255u ? g.refused : 255u) << 24u);
+    c.step = (item.step & 0xFFFFFFu) | ((g.progress.refused < 255u ? g.progress.refused : 255u) << 24u);
     uint flags = kChunkPublished | (g.reads.beyond ? kChunkBeyond : 0u);
-    flags = flags | (g.phase == kPhaseDead ? kChunkDeadEnd : 0u) | (g.phase == kPhaseStopped ? kChunkStopped : 0u);
-    flags = flags | (g.phase == kPhaseDead && g.turnedBack ? kChunkTurnedBack : 0u);
-    c.marks = (site.sceneLayers << 16u) | (g.count << 8u) | flags;
+    flags = flags | (g.progress.phase == kPhaseDead ? kChunkDeadEnd : 0u) | (g.progress.phase == kPhaseStopped ? kChunkStopped : 0u);
+    flags = flags | (g.progress.phase == kPhaseDead && g.step.turnedBack ? kChunkTurnedBack : 0u);
+    c.marks = (site.sceneLayers << 16u) | (g.progress.count << 8u) | flags;
     c.uses = g.reads.uses;
     c.firstChild = kNoIndex;
     c.nextSibling = joinSiblings(env, item, site.chunk);
@@ -141,11 +142,12 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower
     c.reads[2] = readWord(g.reads, 2u);
     writeChunk(env.chunks, site.chunk, c);
 
-    WorkItem rest = itemOf(item, site, g.key, g.grammar, g.symbol, g.args, g.at.walk);
-    rest.origin = g.count - 1u;
+    vec4 args = vec4(g.shape.args[0], g.shape.args[1], g.shape.args[2], g.shape.args[3]);
+    WorkItem rest = itemOf(item, site, g.shape.key, g.shape.grammar, g.shape.symbol, args, stand);
+    rest.origin = g.progress.count - 1u;
     rest.branch = branch;
     rest.depth = item.depth + 0x10000u;
-    rest.step = (item.step & 0xFFFFFFu) + g.steps;
+    rest.step = (item.step & 0xFFFFFFu) + g.progress.steps;
     pushItem(env, rest, goesOn, g);
 }
 
@@ -154,7 +156,7 @@ struct GrowthTally {
     uint chunks, nodes, steps, inserted, stopped, deadEnds;
 };
 FN GrowthTally emptyTally() {
-    GrowthTally t;
+    GrowthTally t = {};
     t.chunks = 0u;
     t.nodes = 0u;
     t.steps = 0u;
@@ -172,16 +174,16 @@ FN void addTally(ExpandEnv env, GrowthTally t) {
     atomicAdd(env.status.v[0].deadEnds, t.deadEnds);
 }
 
-FN void countChunk(ExpandEnv env, Grower g, INOUT(GrowthTally) t) {
+FN void countChunk(ExpandEnv env, IN(Grower) g, INOUT(GrowthTally) t) {
     t.chunks = t.chunks + 1u;
-    t.nodes = t.nodes + g.count;
-    t.steps = t.steps + g.steps;
-    t.inserted = t.inserted + g.inserted;
-    t.stopped = t.stopped + g.refused + (g.phase == kPhaseStopped ? 1u : 0u);
-    t.deadEnds = t.deadEnds + (g.phase == kPhaseDead ? 1u : 0u);
-    if (g.pushed > 0u) {
-        uint before = atomicAdd(env.waves.v[env.wave + 1u].announced, g.pushed);
-        uint added = groupsAdded(before, g.pushed, kItemsPerGroup);
+    t.nodes = t.nodes + g.progress.count;
+    t.steps = t.steps + g.progress.steps;
+    t.inserted = t.inserted + g.progress.inserted;
+    t.stopped = t.stopped + g.progress.refused + (g.progress.phase == kPhaseStopped ? 1u : 0u);
+    t.deadEnds = t.deadEnds + (g.progress.phase == kPhaseDead ? 1u : 0u);
+    if (g.progress.pushed > 0u) {
+        uint before = atomicAdd(env.waves.v[env.wave + 1u].announced, g.progress.pushed);
+        uint added = laneGroupsAdded(before, g.progress.pushed, kItemsPerGroup);
         if (added > 0u) atomicAdd(env.waves.v[env.wave + 1u].groups[0], added);
     }
 }
@@ -190,43 +192,40 @@ FN void countChunk(ExpandEnv env, Grower g, INOUT(GrowthTally) t) {
 struct ChunkGrowth {
     WorkItem item;
     GrowthSite site;
-    TableBases map;
-    WorldFrame frame;
     Grower g;
 };
 
-FN bool growing(Grower g) { return g.phase <= kPhaseMarch; }
+FN bool growing(IN(ChunkProgress) progress) { return progress.phase <= kPhaseMarch; }
 
 FN Grower freshGrower(WorkItem item) {
-    Grower g;
-    g.phase = kPhaseDerive;
-    g.key = item.key;
-    g.grammar = item.symbol >> 16u;
-    g.symbol = item.symbol & 0xFFFFu;
-    g.args = vec4(item.args[0], item.args[1], item.args[2], item.args[3]);
-    g.rule = 0u;
-    g.links = 0u;
-    g.arriveCode = 0u;
-    g.conditionSlots = 0u;
-    g.conditionValue = 0u;
-    g.distance = 0.0f;
-    g.angle = 0.0f;
+    Grower g = {};
+    g.progress.phase = kPhaseDerive;
+    g.shape.key = item.key;
+    g.shape.grammar = item.symbol >> 16u;
+    g.shape.symbol = item.symbol & 0xFFFFu;
+    for (uint i = 0u; i < 4u; ++i) g.shape.args[i] = item.args[i];
+    g.rule.head = 0u;
+    g.rule.links = 0u;
+    g.rule.arriveCode = 0u;
+    g.rule.conditionSlots = 0u;
+    g.rule.conditionValue = 0u;
+    g.rule.distance = 0.0f;
+    g.rule.angle = 0.0f;
     g.remaining = 0.0f;
-    g.attempt = 0u;
-    g.turnedBack = false;
-    g.fresh = true;
-    g.arrived = false;
-    g.placed = false;
-    g.ground = kNoIndex;
-    g.laying = kStepKept;
-    g.pending = 0u;
-    g.lastArc = item.walk.arc;
-    g.count = 0u;
-    g.steps = 0u;
-    g.inserted = 0u;
-    g.trips = 0u;
-    g.pushed = 0u;
-    g.refused = 0u;
+    g.step.attempt = 0u;
+    g.step.turnedBack = false;
+    g.step.fresh = true;
+    g.step.arrived = false;
+    g.step.ground = kNoIndex;
+    g.step.laying = kStepKept;
+    g.step.pending = 0u;
+    g.step.lastArc = item.walk.arc;
+    g.progress.count = 0u;
+    g.progress.steps = 0u;
+    g.progress.inserted = 0u;
+    g.progress.trips = 0u;
+    g.progress.pushed = 0u;
+    g.progress.refused = 0u;
     g.reads = emptyReadSet();
     return g;
 }
@@ -237,17 +236,16 @@ FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth
         atomicAdd(env.status.v[0].stopped, 1u);
         return false;
     }
-    uint chunk;
+    uint chunk = {};
     if (!claimChunk(env, item, chunk)) return false;
     Walk walk = item.walk;
     bool exists = (walk.place & 0xFFFFu) < env.surfaces.v[walk.place >> 16u].chartCount;
     walk.place = exists ? walk.place : walk.place & 0xFFFF0000u;
-    float texel;
+    float texel = {};
     c.item = item;
     c.g = freshGrower(item);
-    c.map = basesOf(env, c.g.grammar);
     c.site.chunk = chunk;
-    uint tables = c.g.grammar * kGrammarTables_words;
+    uint tables = c.g.shape.grammar * kGrammarTables_words;
     c.site.inputs = TABLE(tables + kGrammarTables_inputs);
     c.site.layers = TABLE(tables + kGrammarTables_layers);
     c.site.sceneLayers = TABLE(tables + kGrammarTables_sceneLayers);
@@ -256,60 +254,54 @@ FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth
     c.site.depth = item.depth & 0xFFFFu;
     c.site.stepBase = item.step & 0xFFFFFFu;
     c.site.minStep = 0.25f * texel;
-    c.frame = frameOf(env.surfaces, walk.place >> 16u, c.site.inputs);
-    bool stands = enterWalk(env, c.site.level, walk, item.parent == kNoIndex, c.g.at) && exists;
+    bool stands = enterWalk(env, c.site.level, walk, item.parent == kNoIndex, c.g.trial) && exists;
     bool pruned = item.branch == kNoIndex &&
                   isAmong(env.status.v[0].pruned, 0u, env.status.v[0].prunedCount, item.key);
-    c.g.trial = c.g.at;
+    KEEP_STAND(c.g);
     resetMachine(MACHINE_ONLY);
     if (!stands) {
-        c.g.phase = kPhaseDead;
+        c.g.progress.phase = kPhaseDead;
         atomicAdd(env.status.v[0].lost, 1u);
     }
-    if (pruned) c.g.phase = kPhaseEnded;   // a chunk without nodes stays, so that the branch can come back
+    if (pruned) c.g.progress.phase = kPhaseEnded;   // a chunk without nodes stays, so that the branch can come back
     if (stands && !pruned && item.parent == kNoIndex) {
-        stageNode(env, c.g.at, packOct(c.g.at.normal), packOct(headingOf(env, c.g.at)), false, 0u, 0u);   // the seed's foot
-        c.g.count = 1u;
+        stageNode(env, c.g.trial, packOct(c.g.trial.normal), packOct(headingOf(env, c.g.trial)), false, 0u, 0u);   // the seed's foot
+        c.g.progress.count = 1u;
     }
     return true;
 }
 
-// A trip is the decision at the end of a step, the rule for the next, and a stretch of it: what comes before the stretch,
-FN void decide(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
-    bool here = c.g.arrived || c.g.phase == kPhaseDerive;
-    uint instance = c.g.trial.walk.place >> 16u;
-    if (instance != c.frame.instance) c.frame = frameOf(env.surfaces, instance, c.site.inputs);
-    if (here && !c.g.placed) {
-        giveInputs(MACHINE env, c.frame, c.g.grammar, c.site.inputs, c.site.layers, placeOf(env, c.g.trial), c.site.depth,
-                   c.site.stepBase + c.g.steps + (c.g.arrived ? 1u : 0u), c.g.trial.walk.arc);
-        c.g.placed = true;
-    }
-    // Rules read layers at the ends of steps, terminals at every sample.
-    if ((kFeatures & kFeatureSurface) != 0u && c.site.sceneLayers != 0u) notePlace(c.g.reads, instance, c.g.trial.walk.uv);
-    if (c.g.arrived) arrive(MACHINE env, c.map, c.site, c.g);
+// A trip is the decision at the end of a step, the rule for the next, and a stretch of it. Before the stretch: rules read
+// layers at the ends of steps, terminals at every sample;
+FN void noteWay(uint sceneLayers, IN(WalkState) trial, INOUT(ReadSet) reads) {
+    if ((kFeatures & kFeatureSurface) != 0u && sceneLayers != 0u) notePlace(reads, trial.walk.place >> 16u, trial.walk.uv);
+}
+// whether there is something to decide,
+FN bool decides(uint phase, bool arrived) { return arrived || phase == kPhaseDerive; }
+// the place, which the machine is told (frame: of its instance),
+FN void tellPlace(MACHINE_PARAM ExpandEnv env, WorldFrame frame, GrowthSite site, uint grammar, IN(WalkState) trial,
+                  uint steps) {
+    giveInputs(MACHINE env, frame, grammar, site.inputs, site.layers, placeOf(env, trial), site.depth,
+               site.stepBase + steps, trial.walk.arc);
+}
+// and rules, one after another.
+FN void deriveRules(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, WorkItem entry, INOUT(Grower) g) {
     uint lists = 0u;
-    if (c.g.phase != kPhaseDerive) return;
     do {
-        deriveRule(MACHINE env, c.map, c.site, c.item, c.g);
-    } while (++lists <= kMaxListDepth && c.g.phase == kPhaseDerive);
+        deriveRule(MACHINE env, map, site, entry, g);
+    } while (++lists <= kMaxListDepth && g.progress.phase == kPhaseDerive);
 }
-// what comes after it,
-FN void endTrip(INOUT(Grower) g) {
-    g.trips = g.trips + 1u;
-    if (growing(g) && g.trips >= kMaxTrips) g.phase = g.count > 0u ? kPhaseFull : kPhaseStopped;
-}
-// and all of it.
-FN void growOn(MACHINE_PARAM ExpandEnv env, INOUT(ChunkGrowth) c) {
-    decide(MACHINE env, c);
-    if (c.g.phase == kPhaseMarch) marchOn(env, c.site, c.g);
-    endTrip(c.g);
+// After it.
+FN void endTrip(INOUT(ChunkProgress) p) {
+    p.trips = p.trips + 1u;
+    if (growing(p) && p.trips >= kMaxTrips) p.phase = p.count > 0u ? kPhaseFull : kPhaseStopped;
 }
 
 FN void endChunk(ExpandEnv env, INOUT(ChunkGrowth) c, INOUT(GrowthTally) t) {
-    bool goesOn = c.g.phase == kPhaseFull;
-    if (goesOn && refused(env, (c.item.depth >> 16u) + 1u, c.g.key)) {
+    bool goesOn = c.g.progress.phase == kPhaseFull;
+    if (goesOn && refused(env, (c.item.depth >> 16u) + 1u, c.g.shape.key)) {
         goesOn = false;
-        c.g.phase = kPhaseStopped;
+        c.g.progress.phase = kPhaseStopped;
     }
     publishChunk(env, c.item, c.site, c.g, previousNodeOf(env, c.item), goesOn);
     countChunk(env, c.g, t);

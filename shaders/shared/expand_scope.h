@@ -16,9 +16,11 @@ struct ReadSet {
     uint tile0, tile1, tile2, tile3, tile4;   // kNoIndex: none
     bool beyond;         // places that are none of its nodes'
 };
+RECORD_WORDS(ReadSet)
+RECORD_OFFSETS(ReadSet)
 
 FN ReadSet emptyReadSet() {
-    ReadSet r;
+    ReadSet r = {};
     r.uses = 0u;
     r.level = 0u;
     r.last = kNoIndex;
@@ -128,7 +130,7 @@ struct WorldFrame {
 
 // inputs: only what they need is read.
 FN WorldFrame frameOf(SurfaceBuf surfaces, uint instance, uint inputs) {
-    WorldFrame f;
+    WorldFrame f = {};
     f.instance = instance;
     f.x = vec3(1.0f, 0.0f, 0.0f);
     f.y = vec3(0.0f, 1.0f, 0.0f);
@@ -157,41 +159,41 @@ FN WorldFrame frameOf(SurfaceBuf surfaces, uint instance, uint inputs) {
 // Fills the slots that the masks name. `depth`, `step`, `arc`: see rule_map.h.
 FN void giveInputs(MACHINE_PARAM ExpandEnv env, WorldFrame f, uint grammar, uint inputs, uint layers, Place p, uint depth,
                    uint step, float arc) {
-    SLOT(kSlotTexCoord) = p.uv.x;
-    SLOT(kSlotTexCoord + 1u) = p.uv.y;
-    SLOT(kSlotDepth) = float(depth);
-    SLOT(kSlotStep) = float(step);
-    SLOT(kSlotArc) = arc;
+    SET_SLOT(kSlotTexCoord, p.uv.x);
+    SET_SLOT(kSlotTexCoord + 1u, p.uv.y);
+    SET_SLOT(kSlotDepth, float(depth));
+    SET_SLOT(kSlotStep, float(step));
+    SET_SLOT(kSlotArc, arc);
     if ((kFeatures & kFeatureSurface) != 0u) {
         if ((inputs & kInputCurvature) != 0u) {
-            SLOT(kSlotCurvature) = curvatureAt(env.surfaces, p.instance, p.level, p.uv) * f.perMetre;
+            SET_SLOT(kSlotCurvature, curvatureAt(env.surfaces, p.instance, p.level, p.uv) * f.perMetre);
         }
         for (uint left = layers; left != 0u; left = left & (left - 1u)) {
             uint i = lowestBit(left);
-            SLOT(kSlotLayer + i) = layerAt(env.layers, p.instance, env.grammars.v[grammar].layerOf[i] & 15u, p.uv);
+            SET_SLOT(kSlotLayer + i, layerAt(env.layers, p.instance, env.grammars.v[grammar].layerOf[i] & 15u, p.uv));
         }
     }
     if ((kFeatures & kFeatureWorld) == 0u || (inputs & kInputsOfWorld) == 0u) return;
     vec3 normal = vec3(dot3(f.x, p.normal), dot3(f.y, p.normal), dot3(f.z, p.normal)) * f.perMetre;
     vec3 heading = vec3(dot3(f.x, p.heading), dot3(f.y, p.heading), dot3(f.z, p.heading)) * f.perMetre;
     float height = dot3(f.y, p.position) + f.offset.y;
-    SLOT(kSlotNormal) = normal.x;
-    SLOT(kSlotNormal + 1u) = normal.y;
-    SLOT(kSlotNormal + 2u) = normal.z;
-    SLOT(kSlotHeading) = heading.x;
-    SLOT(kSlotHeading + 1u) = heading.y;
-    SLOT(kSlotHeading + 2u) = heading.z;
-    SLOT(kSlotPosition) = dot3(f.x, p.position) + f.offset.x;
-    SLOT(kSlotPosition + 1u) = height;
-    SLOT(kSlotPosition + 2u) = dot3(f.z, p.position) + f.offset.z;
-    SLOT(kSlotHeight) = height - f.lowest;
+    SET_SLOT(kSlotNormal, normal.x);
+    SET_SLOT(kSlotNormal + 1u, normal.y);
+    SET_SLOT(kSlotNormal + 2u, normal.z);
+    SET_SLOT(kSlotHeading, heading.x);
+    SET_SLOT(kSlotHeading + 1u, heading.y);
+    SET_SLOT(kSlotHeading + 2u, heading.z);
+    SET_SLOT(kSlotPosition, dot3(f.x, p.position) + f.offset.x);
+    SET_SLOT(kSlotPosition + 1u, height);
+    SET_SLOT(kSlotPosition + 2u, dot3(f.z, p.position) + f.offset.z);
+    SET_SLOT(kSlotHeight, height - f.lowest);
     if ((inputs & kInputSlope) != 0u) {
-        SLOT(kSlotSlope) = atan2Exact(sqrtExact(normal.x * normal.x + normal.z * normal.z), normal.y);
+        SET_SLOT(kSlotSlope, atan2Exact(sqrtExact(normal.x * normal.x + normal.z * normal.z), normal.y));
     }
     for (uint left = inputs & 15u; left != 0u; left = left & (left - 1u)) {
         uint i = lowestBit(left);
         vec4 d = env.grammars.v[grammar].directions[i];
-        SLOT(kSlotAngle + i) = angleInSurface(heading, normal, vec3(d.x, d.y, d.z));
+        SET_SLOT(kSlotAngle + i, angleInSurface(heading, normal, vec3(d.x, d.y, d.z)));
     }
 }
 

@@ -15,8 +15,7 @@ ESPALIER_BEGIN
 // Few steps come here: the others keep their registers.
 #define FN_SELDOM __attribute__((noinline, flatten)) inline
 #else
-uint stagedNodes[kChunkNodes * kStagedSample_words];
-#define STAGED(i) stagedNodes[i]
+#define STAGED(i) LANE_WORD(kLaneStage + (i))
 #define FN_SELDOM
 #endif
 
@@ -42,9 +41,9 @@ struct StagedNode {
 
 FN StagedNode stagedNode(UintBuf stage, uint index) {
     UNUSED(stage);
-    StagedSample words;
+    StagedSample words = {};
     FILL_StagedSample(words, STAGED, kStagedSample_words * index)
-    StagedNode s;
+    StagedNode s = {};
     s.position = words.position;
     s.normal = words.normal;
     s.uv = unpackUv(words.uv);
@@ -58,7 +57,7 @@ FN StagedNode stagedNode(UintBuf stage, uint index) {
 
 // The sample that a chunk's first span begins with: another chunk's.
 FN StagedNode enteredNode(WalkState w) {
-    StagedNode s;
+    StagedNode s = {};
     s.position = w.position;
     s.normal = packOct(w.normal);
     s.uv = unpackUv(packUv(w.walk.uv));
@@ -116,7 +115,7 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
     vec2 at = a.uv;             // how far the span to b has been followed
     bool seated = false;        // b has been laid on `last`
     bool waits = false;         // at `at` the way has left a triangle with normal `before`
-    TrianglePlane last;
+    TrianglePlane last = {};
     uint lastTriangle = kNoIndex;
     uint passed = kNoIndex;
     vec3 before = vec3(0.0f);
@@ -141,8 +140,8 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
         }
         vec3 across = cross3(t.du, t.dv);
         float area2 = dot3(across, across);
-        float orientation;
-        uint coarsest;
+        float orientation = {};
+        uint coarsest = {};
         readChart(surfaces, a.place >> 16u, a.place & 0xFFFFu, orientation, coarsest);
         follows = follows && triangle != kNoIndex && area2 > 1e-36f;
         bool ends = !follows;

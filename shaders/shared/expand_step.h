@@ -6,6 +6,7 @@
 #ifndef ESPALIER_SHARED_EXPAND_STEP_H
 #define ESPALIER_SHARED_EXPAND_STEP_H
 #include "shaders/shared/expand_stage.h"
+#include "shaders/shared/grower.h"
 #include "shaders/shared/paper_walk.h"
 
 ESPALIER_BEGIN
@@ -37,7 +38,7 @@ FN void turnWalk(ExpandEnv env, INOUT(WalkState) w, float angle) {
     }
 }
 FN uint advanceWalk(ExpandEnv env, uint level, INOUT(WalkState) w, INOUT(float) remaining, OUT(vec3) normal) {
-    uint event;
+    uint event = {};
     if (PAPER_WALK(env)) {
         event = paperAdvance(env.surfaces, level, w, remaining, normal);
     } else {
@@ -68,55 +69,17 @@ CONST_UINT(kPhaseFull, 3u);      // the chunk is full: the branch goes on in the
 CONST_UINT(kPhaseDead, 4u);      // no direction serves
 CONST_UINT(kPhaseStopped, 5u);   // a limit
 
-// A chunk while it grows.
-struct Grower {
-    uint phase;
-    // The shape that waits for its rule or is marching.
-    u64 key;
-    uint grammar, symbol;
-    vec4 args;
-    WalkState at;        // where it stands
-    // The step under way.
-    WalkState trial;     // how far it has come
-    uint rule;           // word 0 of its packed record
-    uint links;          // word 1
-    uint arriveCode;
-    uint conditionSlots, conditionValue;   // slots: of the condition, from bit 8 on of its blind part, plus 1
-    float distance, angle, remaining;
-    uint attempt;        // 0: the heading as the rule turned it, then detours
-    bool turnedBack;     // of one of them the condition didn't hold for where it led
-    bool fresh;          // the attempt has not left yet
-    bool arrived;        // it has reached its end: the condition is to be asked there
-    bool placed;         // the machine knows the place where `trial` stands
-    uint ground;         // the triangle under the last sample, where that is known
-    uint laying;         // kStepKept, ...: of the step that has arrived
-    uint pending;        // samples staged for it
-    float lastArc;       // of the last sample staged
-    // What is done.
-    uint count;          // nodes
-    uint steps;
-    uint inserted;
-    uint trips;
-    uint pushed, refused;   // items
-    ReadSet reads;
-};
-
-// The constants of a chunk's growth.
-struct GrowthSite {
-    uint chunk;          // its own index
-    uint inputs, layers; // what its grammar asks of places
-    uint sceneLayers;    // what it or its terminals read of layers, by the scene's numbers
-    uint level;
-    uint depth;          // branches from the seed
-    uint stepBase;       // steps of its branch before it
-    float minStep;       // metres
-};
-
-FN void giveArgs(MACHINE_PARAM vec4 args) {
-    SLOT(kSlotArg) = args.x;
-    SLOT(kSlotArg + 1u) = args.y;
-    SLOT(kSlotArg + 2u) = args.z;
-    SLOT(kSlotArg + 3u) = args.w;
+FN void giveArgs(MACHINE_PARAM IN(PendingShape) shape) {
+    SET_SLOT(kSlotArg, shape.args[0]);
+    SET_SLOT(kSlotArg + 1u, shape.args[1]);
+    SET_SLOT(kSlotArg + 2u, shape.args[2]);
+    SET_SLOT(kSlotArg + 3u, shape.args[3]);
+}
+FN void takeArgs(INOUT(PendingShape) shape, vec4 args) {
+    shape.args[0] = args.x;
+    shape.args[1] = args.y;
+    shape.args[2] = args.z;
+    shape.args[3] = args.w;
 }
 
 // The arguments of a successor, `head` being its first word.
@@ -136,7 +99,7 @@ FN vec4 readArgs(MACHINE_PARAM ExpandEnv env, uint at, uint head) {
 FN u64 successorKey(u64 key, uint head, uint nameHash) { return childKey(key, nameHash, (head >> 16u) & 255u); }
 
 FN Place placeOf(ExpandEnv env, WalkState w) {
-    Place p;
+    Place p = {};
     p.position = w.position;
     p.normal = w.normal;
     p.heading = headingOf(env, w);
@@ -148,7 +111,7 @@ FN Place placeOf(ExpandEnv env, WalkState w) {
 
 // An item without its links: origin, branch, depth and step.
 FN WorkItem itemOf(WorkItem entry, GrowthSite site, u64 key, uint grammar, uint symbol, vec4 args, IN(Walk) walk) {
-    WorkItem item;
+    WorkItem item = {};
     item.key = key;
     item.walk = walk;
     item.symbol = (grammar << 16u) | symbol;
@@ -168,25 +131,25 @@ FN void pushItem(ExpandEnv env, WorkItem item, bool wanted, INOUT(Grower) g) {
     bool push = wanted && (item.depth >> 16u) <= env.phase;
     uint at = kNoIndex;
     if (push) at = atomicAdd(env.waves.v[env.wave + 1u].count, 1u);
-    g.pushed = g.pushed + (push ? 1u : 0u);
-    g.refused = g.refused + (wanted && !push ? 1u : 0u);
+    g.progress.pushed = g.progress.pushed + (push ? 1u : 0u);
+    g.progress.refused = g.progress.refused + (wanted && !push ? 1u : 0u);
     if (at < env.itemCapacity) writeWorkItem(env.nextItems, at, item);
 }
 
 // Finds the shape's rule and applies it: a List at once (its branches are queued, what it continues with waits for
 // its own rule), a March as far as its length and angle. The machine knows the place.
 FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, WorkItem entry, INOUT(Grower) g) {
-    giveArgs(MACHINE g.args);
-    uint at = map.symbols + g.symbol * kSymbolRow_words;
+    giveArgs(MACHINE g.shape);
+    uint at = map.symbols + g.shape.symbol * kSymbolRow_words;
     uint rules = TABLE(at + kSymbolRow_rules);
     uint sites = TABLE(at + kSymbolRow_sites);
-    drawTable(MACHINE env, map, sites & 0xFFFFu, (sites >> 16u) & 255u, g.key, g.key);
+    drawTable(MACHINE env, map, sites & 0xFFFFu, (sites >> 16u) & 255u, g.shape.key, g.shape.key);
     runTable(MACHINE env, map, TABLE(at + kSymbolRow_select));
     float selected = packedValue(MACHINE sites >> 24u, TABLE(at + kSymbolRow_selected));
     g.reads.uses = g.reads.uses | TABLE(at + kSymbolRow_uses);
     uint ruleCount = rules >> 16u;
     if (!(selected >= 0.0f) || ruleCount == 0u) {
-        g.phase = kPhaseEnded;
+        g.progress.phase = kPhaseEnded;
         return;
     }
     uint number = uint(selected);
@@ -194,24 +157,24 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
     uint head = TABLE(at + kRuleRow_head);
     uint links = TABLE(at + kRuleRow_links);
     uint slots = TABLE(at + kRuleRow_slots);
-    drawTable(MACHINE env, map, links >> 16u, (head >> 16u) & 255u, g.key, g.key);
+    drawTable(MACHINE env, map, links >> 16u, (head >> 16u) & 255u, g.shape.key, g.shape.key);
     runTable(MACHINE env, map, TABLE(at + kRuleRow_start));
-    g.rule = head;
-    g.links = links;
-    g.arriveCode = TABLE(at + kRuleRow_arrive);
-    g.distance = larger(packedValue(MACHINE slots & 127u, TABLE(at + kRuleRow_distance)), site.minStep);
-    g.angle = limited(packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + kRuleRow_angle)), -kMostTurn, kMostTurn);
-    g.conditionSlots = slots >> 16u;
-    g.conditionValue = TABLE(at + kRuleRow_condition);
+    g.rule.head = head;
+    g.rule.links = links;
+    g.rule.arriveCode = TABLE(at + kRuleRow_arrive);
+    g.rule.distance = larger(packedValue(MACHINE slots & 127u, TABLE(at + kRuleRow_distance)), site.minStep);
+    g.rule.angle = limited(packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + kRuleRow_angle)), -kMostTurn, kMostTurn);
+    g.rule.conditionSlots = slots >> 16u;
+    g.rule.conditionValue = TABLE(at + kRuleRow_condition);
     g.reads.uses = g.reads.uses | TABLE(at + kRuleRow_uses);
-    g.attempt = 0u;
-    g.turnedBack = false;
-    g.fresh = true;
-    g.phase = (head & 3u) == kRuleMarch ? kPhaseMarch : kPhaseEnded;
+    g.step.attempt = 0u;
+    g.step.turnedBack = false;
+    g.step.fresh = true;
+    g.progress.phase = (head & 3u) == kRuleMarch ? kPhaseMarch : kPhaseEnded;
 
     uint first = links & 0xFFFFu;
     uint count = (head & 3u) == kRuleList ? (head >> 2u) & 63u : 0u;
-    u64 key = g.key;
+    u64 key = g.shape.key;
     for (uint i = first; i < first + count; ++i) {
         at = map.successors + i * kSuccessorRow_words;
         uint successor = TABLE(at + kSuccessorRow_head);
@@ -220,17 +183,17 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
         u64 child = successorKey(key, successor, TABLE(at + kSuccessorRow_nameHash));
         uint symbol = successor & 0xFFFFu;
         bool branches = (successor & kPackedContinues) == 0u;
-        WorkItem item = itemOf(entry, site, child, g.grammar, symbol, args, g.at.walk);
+        WorkItem item = itemOf(entry, site, child, g.shape.grammar, symbol, args, STAND(g).walk);
         item.walk.arc = 0.0f;
-        item.origin = g.count == 0u ? kNoIndex : g.count - 1u;
+        item.origin = g.progress.count == 0u ? kNoIndex : g.progress.count - 1u;
         item.branch = kNoIndex;
         item.depth = entry.depth + 0x10001u;
         pushItem(env, item, branches, g);
         if (!branches) {
-            g.key = child;
-            g.symbol = symbol;
-            g.args = args;
-            g.phase = kPhaseDerive;
+            g.shape.key = child;
+            g.shape.symbol = symbol;
+            takeArgs(g.shape, args);
+            g.progress.phase = kPhaseDerive;
         }
     }
 }
@@ -239,7 +202,7 @@ FN void deriveRule(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site,
 FN void stageNode(ExpandEnv env, WalkState w, uint normal, uint heading, bool seam, uint flags, uint index) {
     UintBuf stage = env.scratch;
     UNUSED(stage);
-    StagedSample s;
+    StagedSample s = {};
     s.position = w.position;
     s.normal = normal;
     s.heading = heading;
@@ -259,134 +222,136 @@ FN float texelOf(ExpandEnv env, GrowthSite site, uint instance) {
 
 // What a step's samples need. Its span leaves the surface where its ends turn much for their distance, or at creases
 // where they lie off each other's planes.
-FN uint layingOf(ExpandEnv env, GrowthSite site, Grower g) {
-    float scale = surfaceScale(env.surfaces, g.at.walk.place >> 16u);
-    vec3 chord = (g.trial.position - g.at.position) * scale;
+FN uint layingOf(ExpandEnv env, GrowthSite site, IN(Grower) g, IN(WalkState) from) {
+    float scale = surfaceScale(env.surfaces, from.walk.place >> 16u);
+    vec3 chord = (g.trial.position - from.position) * scale;
     float texel2nd = 16.0f * site.minStep * site.minStep;
-    float bend = 2.0f * dot3(chord, chord) * (1.0f - dot3(g.at.normal, g.trial.normal));
-    float lean = larger(absolute(dot3(chord, g.at.normal)), absolute(dot3(chord, g.trial.normal)));
+    float bend = 2.0f * dot3(chord, chord) * (1.0f - dot3(from.normal, g.trial.normal));
+    float lean = larger(absolute(dot3(chord, from.normal)), absolute(dot3(chord, g.trial.normal)));
     bool ends = (g.trial.flags & (kWalkFlagCrease | kWalkFlagBeside)) != 0u;
-    bool creased = ends || (g.at.flags & (kWalkFlagCrease | kWalkFlagBeside)) != 0u;
+    bool creased = ends || (from.flags & (kWalkFlagCrease | kWalkFlagBeside)) != 0u;
     bool leaves = bend > kBendTexels * kBendTexels * texel2nd ||
                   (creased && lean * lean > kLeanTexels * kLeanTexels * texel2nd);
-    bool moves = g.at.walk.place >> 16u != g.trial.walk.place >> 16u;   // to another instance's space
-    return leaves || moves ? kStepFollowed : ends || (creased && g.pending > 0u) ? kStepLaid : kStepKept;
+    bool moves = from.walk.place >> 16u != g.trial.walk.place >> 16u;   // to another instance's space
+    return leaves || moves ? kStepFollowed : ends || (creased && g.step.pending > 0u) ? kStepLaid : kStepKept;
 }
 
 // The angle of an attempt: the rule's own, then a fan over the semicircle around the heading, the side that comes
 // first drawn by the key.
-FN float attemptAngle(Grower g) {
-    if (g.attempt == 0u) return g.angle;
-    float side = ((uint(g.key >> 17) ^ g.attempt) & 1u) != 0u ? 1.0f : -1.0f;
-    return side * kDetourAngle * float((g.attempt + 1u) >> 1u);
+FN float attemptAngle(IN(Grower) g) {
+    if (g.step.attempt == 0u) return g.rule.angle;
+    float side = ((uint(g.shape.key >> 17) ^ g.step.attempt) & 1u) != 0u ? 1.0f : -1.0f;
+    return side * kDetourAngle * float((g.step.attempt + 1u) >> 1u);
 }
 
 // Begins an attempt: the walk stands where the step begins, and has to turn by attemptAngle.
 FN void setOut(INOUT(Grower) g) {
-    g.trial = g.at;
-    g.remaining = g.distance;
-    g.pending = 0u;
-    g.lastArc = g.at.walk.arc;
-    g.fresh = false;
+    g.trial = STAND(g);
+    g.remaining = g.rule.distance;
+    g.step.pending = 0u;
+    g.step.lastArc = g.trial.walk.arc;
+    g.step.fresh = false;
 }
 
 // What comes of a stretch that ended with `event`. normal, heading: packed, of a sample put there.
 FN void takeStretch(ExpandEnv env, GrowthSite site, INOUT(Grower) g, uint event, uint normal, uint heading) {
     bool goesOn = walkGoesOn(event);
     bool arrived = event == kWalkDone;
-    g.arrived = arrived;
-    g.placed = false;
+    g.step.arrived = arrived;
     bool recorded = arrived || (goesOn && walkHasSample(event));
-    bool tiny = g.trial.walk.arc - g.lastArc < 0.02f * g.distance;
-    if (arrived && tiny && g.pending > 0u) g.pending = g.pending - 1u;
+    bool tiny = g.trial.walk.arc - g.step.lastArc < 0.02f * g.rule.distance;
+    if (arrived && tiny && g.step.pending > 0u) g.step.pending = g.step.pending - 1u;
     recorded = recorded && (arrived || !tiny);
 
-    uint index = g.count + g.pending;
-    g.laying = arrived && !PAPER_WALK(env) ? layingOf(env, site, g) : kStepKept;
-    uint spare = arrived ? (g.laying == kStepFollowed && g.count > 0u ? kRoomToFollow : 0u) : 1u;
+    uint index = g.progress.count + g.step.pending;
+    g.step.laying = arrived && !PAPER_WALK(env) ? layingOf(env, site, g, STAND(g)) : kStepKept;
+    uint spare = arrived ? (g.step.laying == kStepFollowed && g.progress.count > 0u ? kRoomToFollow : 0u) : 1u;
     bool room = index + spare < kChunkNodes;
-    bool full = recorded && !room && g.count > 0u;
-    g.phase = full ? kPhaseFull : g.phase;   // the whole step moves to the next chunk
+    bool full = recorded && !room && g.progress.count > 0u;
+    g.progress.phase = full ? kPhaseFull : g.progress.phase;   // the whole step moves to the next chunk
     if (recorded && room) {
-        uint flags = ((g.rule >> 8u) & 255u) | (arrived ? 0u : kNodeInserted) | ((g.steps & 31u) << 26u);
+        uint flags = ((g.rule.head >> 8u) & 255u) | (arrived ? 0u : kNodeInserted) | ((g.progress.steps & 31u) << 26u);
         stageNode(env, g.trial, normal, heading, event == kWalkSeam && !PAPER_WALK(env), flags, index);
-        g.pending = g.pending + 1u;
-        g.lastArc = g.trial.walk.arc;
+        g.step.pending = g.step.pending + 1u;
+        g.step.lastArc = g.trial.walk.arc;
     }
     if (!arrived && !goesOn) {
         // A border of the model, or no surface: the next direction.
-        g.phase = g.attempt >= kDetours ? kPhaseDead : g.phase;
-        g.attempt = g.attempt + 1u;
-        g.fresh = true;
+        g.progress.phase = g.step.attempt >= kDetours ? kPhaseDead : g.progress.phase;
+        g.step.attempt = g.step.attempt + 1u;
+        g.step.fresh = true;
     }
 }
 
 // One stretch of the step under way.
 FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
-    if (g.fresh) {
+    if (g.step.fresh) {
         setOut(g);
         turnWalk(env, g.trial, attemptAngle(g));
     }
-    vec3 normal;
+    vec3 normal = {};
     uint event = advanceWalk(env, site.level, g.trial, g.remaining, normal);
     takeStretch(env, site, g, event, packOct(normal), packOct(headingOf(env, g.trial)));
 }
 
-// Terminals read layers at the samples that a step got between its ends, too; `first` to `end`: staged, those among them.
+// Terminals read layers at the samples that a step got between its ends, too; `first` to `end`: those among its staged.
 FN_SELDOM void noteStaged(ExpandEnv env, uint first, uint end, INOUT(ReadSet) reads) {
     for (uint i = first; i < end; ++i) {
         StagedNode s = stagedNode(env.scratch, i);
         notePlace(reads, s.place >> 16u, s.uv);
     }
 }
+FN bool notesStaged(uint sceneLayers, uint laid) { return (kFeatures & kFeatureSurface) != 0u && sceneLayers != 0u && laid > 0u; }
 
-// At the end of a step: its condition, and its successor. The machine knows the place.
-FN void arrive(MACHINE_PARAM ExpandEnv env, TableBases map, GrowthSite site, INOUT(Grower) g) {
-    g.arrived = false;
-    runTable(MACHINE env, map, g.arriveCode);
-    if (!holds(packedValue(MACHINE g.conditionSlots & 127u, g.conditionValue))) {
-        // Where it fails for what isn't asked of the place, no other direction can help.
-        uint part = g.conditionSlots >> 8u;
-        bool blind = (g.rule & kRuleBlind) != 0u || (part != 0u && !holds(SLOT(part - 1u)));
-        g.reads.beyond = g.reads.beyond || !blind;
-        g.turnedBack = g.turnedBack || !blind;
-        g.phase = blind ? kPhaseEnded : g.attempt >= kDetours ? kPhaseDead : kPhaseMarch;
-        g.attempt = g.attempt + 1u;
-        g.fresh = true;
+// At the end of a step, in whose place the machine is: whether its condition holds there. If not, the next direction.
+FN bool conditionHolds(MACHINE_PARAM ExpandEnv env, TableBases map, INOUT(Grower) g) {
+    g.step.arrived = false;
+    runTable(MACHINE env, map, g.rule.arriveCode);
+    if (holds(packedValue(MACHINE g.rule.conditionSlots & 127u, g.rule.conditionValue))) return true;
+    // Where it fails for what isn't asked of the place, no other direction can help.
+    uint part = g.rule.conditionSlots >> 8u;
+    bool blind = (g.rule.head & kRuleBlind) != 0u || (part != 0u && !holds(SLOT(part - 1u)));
+    g.reads.beyond = g.reads.beyond || !blind;
+    g.step.turnedBack = g.step.turnedBack || !blind;
+    g.progress.phase = blind ? kPhaseEnded : g.step.attempt >= kDetours ? kPhaseDead : kPhaseMarch;
+    g.step.attempt = g.step.attempt + 1u;
+    g.step.fresh = true;
+    return false;
+}
+
+// Lays the step's samples on the mesh.
+FN void layStep(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
+    StagedNode start = {};
+    if (g.progress.count > 0u) {
+        start = stagedNode(env.scratch, g.progress.count - 1u);
+    } else {
+        start = enteredNode(STAND(g));
+    }
+    float texel = texelOf(env, site, start.place >> 16u);
+    float size = float(levelSize(env.surfaces, start.place >> 16u, site.level));
+    uint end = g.progress.count + g.step.pending;
+    bool followed = g.step.laying == kStepFollowed;
+    uint laid = layOnMesh(env.surfaces, env.scratch, start, texel, size, followed, g.progress.count, end, g.step.ground);
+    g.step.pending = g.step.pending + laid;
+}
+
+// The step is done; its successor.
+FN void finishStep(MACHINE_PARAM ExpandEnv env, TableBases map, INOUT(Grower) g) {
+    g.step.ground = g.step.laying != kStepKept ? g.step.ground : kNoIndex;
+    g.progress.count = g.progress.count + g.step.pending;
+    g.progress.inserted = g.progress.inserted + g.step.pending - 1u;
+    g.step.pending = 0u;
+    g.progress.steps = g.progress.steps + 1u;
+    if ((g.rule.head & 252u) == 0u) {
+        g.progress.phase = kPhaseEnded;   // no successor
         return;
     }
-    if (g.laying != kStepKept) {
-        StagedNode start;
-        if (g.count > 0u) {
-            start = stagedNode(env.scratch, g.count - 1u);
-        } else {
-            start = enteredNode(g.at);
-        }
-        float texel = texelOf(env, site, start.place >> 16u);
-        float size = float(levelSize(env.surfaces, start.place >> 16u, site.level));
-        uint end = g.count + g.pending;
-        bool followed = g.laying == kStepFollowed;
-        uint laid = layOnMesh(env.surfaces, env.scratch, start, texel, size, followed, g.count, end, g.ground);
-        g.pending = g.pending + laid;
-        bool reads = (kFeatures & kFeatureSurface) != 0u && site.sceneLayers != 0u && laid > 0u;
-        if (reads) noteStaged(env, g.count, end + laid, g.reads);
-    }
-    g.ground = g.laying != kStepKept ? g.ground : kNoIndex;
-    g.at = g.trial;
-    g.count = g.count + g.pending;
-    g.inserted = g.inserted + g.pending - 1u;
-    g.pending = 0u;
-    g.steps = g.steps + 1u;
-    if ((g.rule & 252u) == 0u) {
-        g.phase = kPhaseEnded;   // no successor
-        return;
-    }
-    uint at = map.successors + (g.links & 0xFFFFu) * kSuccessorRow_words;
+    uint at = map.successors + (g.rule.links & 0xFFFFu) * kSuccessorRow_words;
     uint head = TABLE(at + kSuccessorRow_head);
-    g.args = readArgs(MACHINE env, at, head);
-    g.key = successorKey(g.key, head, TABLE(at + kSuccessorRow_nameHash));
-    g.symbol = head & 0xFFFFu;
-    g.phase = g.count >= kChunkNodes ? kPhaseFull : kPhaseDerive;
+    takeArgs(g.shape, readArgs(MACHINE env, at, head));
+    g.shape.key = successorKey(g.shape.key, head, TABLE(at + kSuccessorRow_nameHash));
+    g.shape.symbol = head & 0xFFFFu;
+    g.progress.phase = g.progress.count >= kChunkNodes ? kPhaseFull : kPhaseDerive;
 }
 
 ESPALIER_END

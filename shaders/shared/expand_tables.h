@@ -161,7 +161,7 @@ struct TableBases {
 };
 FN TableBases basesOf(ExpandEnv env, uint grammar) {
     uint at = grammar * kGrammarTables_words;
-    TableBases b;
+    TableBases b = {};
     b.symbols = TABLE(at + kGrammarTables_symbols);
     b.rules = TABLE(at + kGrammarTables_rules);
     b.successors = TABLE(at + kGrammarTables_successors);
@@ -189,7 +189,7 @@ FN void drawTable(MACHINE_PARAM ExpandEnv env, TableBases map, uint first, uint 
     if (count == 0u) return;
     do {
         uint site = TABLE(map.sites + first + j);
-        SLOT(kSlotDraw + j) = drawSite(site, key, instanceKey);
+        SET_SLOT(kSlotDraw + j, drawSite(site, key, instanceKey));
     } while (++j < count);
 }
 

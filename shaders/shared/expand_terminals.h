@@ -52,7 +52,7 @@ struct LeafDraft {
 };
 // Without its node.
 FN Leaf leafOf(LeafDraft d) {
-    Leaf leaf;
+    Leaf leaf = {};
     leaf.node = kNoIndex;
     leaf.place = packLeafPlace(divExact(d.along, larger(d.span, 1e-9f)), d.mesh, d.size);
     leaf.pose = packLeafPose(d.turn, d.pitch, d.lift, d.size);
@@ -155,23 +155,23 @@ FN float runTerminals(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, TableBases map, 
         bool codeless = (gateCode >> 16u) == 0u && ((head >> 16u) & 255u) == 0u;
         bool body = !gate || codeless;
         u64 key = childKey(site.key, TABLE(at + kTerminalRow_site), made);
-        SLOT(kSlotIndex) = float(made);
+        SET_SLOT(kSlotIndex, float(made));
         drawTable(MACHINE env, map, body ? sites >> 16u : sites & 0xFFFFu, body ? head >> 24u : (head >> 16u) & 255u,
                   site.key, key);
         if (gate && codeless) {
             count = instanceCount(packedValue(MACHINE slots & 127u, TABLE(at + kTerminalRow_count)), bark, barked, site.foot);
-            SLOT(kSlotCount) = float(count);
+            SET_SLOT(kSlotCount, float(count));
         }
         runTable(MACHINE env, map, body ? bodyCode : gateCode);
         if (!body) {
             count = instanceCount(packedValue(MACHINE slots & 127u, TABLE(at + kTerminalRow_count)), bark, barked, site.foot);
-            SLOT(kSlotCount) = float(count);
+            SET_SLOT(kSlotCount, float(count));
         }
         bool makes = body && made < count;
         float size = packedValue(MACHINE (slots >> 8u) & 127u, TABLE(at + kTerminalRow_size));
         if (makes && bark) {
             radius = limited(size, 0.0f, 1e3f);
-            SLOT(kSlotRadius) = radius;
+            SET_SLOT(kSlotRadius, radius);
             barked = true;
             barkFlags = site.foot ? 0u : kNodeBark | ((head & 255u) << 18u) | (((head >> 8u) & 3u) << 15u);
             count = 1u;
@@ -179,7 +179,7 @@ FN float runTerminals(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, TableBases map, 
         if (makes && !bark) {
             uint more = TABLE(at + kTerminalRow_moreSlots);
             float along = packedValue(MACHINE (slots >> 16u) & 127u, TABLE(at + kTerminalRow_t));
-            LeafDraft draft;
+            LeafDraft draft = {};
             draft.along = 0.0f;
             draft.span = 0.0f;
             draft.size = size;
@@ -249,7 +249,7 @@ struct StemChunk {
     u64 branchKey;
 };
 FN StemChunk stemChunk(ExpandEnv env, uint chunk) {
-    StemChunk c;
+    StemChunk c = {};
     c.brief = readChunkBrief(env.chunks, chunk);
     c.branch = readBranch(env, c.brief.branch);
     c.branchKey = readKey(env, c.branch.firstChunk);
@@ -295,7 +295,7 @@ struct StemFrame {
 };
 // branches: jointsAt, or zero.
 FN StemFrame stemFrame(vec3 before, vec3 at, vec3 after, vec3 branches, uint normal, uint heading) {
-    StemFrame f;
+    StemFrame f = {};
     f.normal = unpackOct(normal);
     f.heading = unpackOct(heading);
     vec3 sum = segmentDirection(before, at) + segmentDirection(at, after) + branches;
@@ -309,7 +309,7 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, IN(StemChunk)
     Node node = s.node;
     ChunkBrief brief = chunk.brief;
     uint local = s.index - brief.firstNode;
-    NodeSite site;
+    NodeSite site = {};
     site.index = s.index;
     site.chunk = node.chunk;
     site.foot = s.leader == kNoIndex;
@@ -340,7 +340,7 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, IN(StemChunk)
         uint first = range & 0xFFFFu;
         float length = chunk.branch.extent;
         site.key = childKey(chunk.branchKey, nameHash, step);
-        Place place;
+        Place place = {};
         place.position = node.position;
         place.normal = frame.normal;
         place.heading = frame.heading;
@@ -348,15 +348,15 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, IN(StemChunk)
         place.instance = node.place >> 16u;
         place.level = 0u;
         resetMachine(MACHINE_ONLY);
-        SLOT(kSlotArg) = brief.args[0];
-        SLOT(kSlotArg + 1u) = brief.args[1];
-        SLOT(kSlotArg + 2u) = brief.args[2];
-        SLOT(kSlotArg + 3u) = brief.args[3];
-        SLOT(kSlotBranchLength) = length;
-        SLOT(kSlotToTip) = length - node.arc;
-        SLOT(kSlotSpanLength) = site.stepEnd - site.stepStart;
-        SLOT(kSlotRadius) = 0.0f;
-        SLOT(kSlotCount) = 0.0f;
+        SET_SLOT(kSlotArg, brief.args[0]);
+        SET_SLOT(kSlotArg + 1u, brief.args[1]);
+        SET_SLOT(kSlotArg + 2u, brief.args[2]);
+        SET_SLOT(kSlotArg + 3u, brief.args[3]);
+        SET_SLOT(kSlotBranchLength, length);
+        SET_SLOT(kSlotToTip, length - node.arc);
+        SET_SLOT(kSlotSpanLength, site.stepEnd - site.stepStart);
+        SET_SLOT(kSlotRadius, 0.0f);
+        SET_SLOT(kSlotCount, 0.0f);
         WorldFrame world = frameOf(env.surfaces, place.instance, inputs);
         giveInputs(MACHINE env, world, grammar, inputs, layers, place, brief.depth & 0xFFFFu, step, node.arc);
         uint cell = 0u;
@@ -365,7 +365,7 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, IN(StemChunk)
         radius = runTerminals(MACHINE LEAVES env, map, first, first + (range >> 16u), site, cell, barkFlags);
     }
     hash = hash + site.hash;
-    NodeFinish finish;
+    NodeFinish finish = {};
     finish.tangent = tangentWithHeading(frame.tangent, headingOfNode(node));
     finish.flags = (node.flags & 0x7C003FFFu) | barkFlags | (site.tip ? kNodeTip : 0u);
     finish.radius = roundRadius(radius);
@@ -377,7 +377,7 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, IN(StemChunk)
 // All of it. hash: the sum of its leaves' hashes is added. Native code does the same for some nodes at a time
 // (native_finish.hpp).
 NodeFinish finishNode(ExpandEnv env, uint index, inout uvec2 hash) {
-    StemNode s;
+    StemNode s = {};
     s.index = index;
     s.node = readNode(env, index);
     StemChunk chunk = stemChunk(env, s.node.chunk);

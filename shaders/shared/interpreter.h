@@ -25,13 +25,17 @@ struct Machine {
 #define MACHINE_ONLY machine
 #define MACHINE_ONLY_PARAM Machine &machine
 #define SLOT(i) machine.slots[i]
+#define SET_SLOT(i, value) machine.slots[i] = value
 #else
-float machineSlots[kMachineSlots];
 #define MACHINE
 #define MACHINE_PARAM
 #define MACHINE_ONLY
 #define MACHINE_ONLY_PARAM
+#ifndef SLOT   // else a kernel keeps slots elsewhere
+float machineSlots[kMachineSlots];
 #define SLOT(i) machineSlots[i]
+#define SET_SLOT(i, value) machineSlots[i] = value
+#endif
 #endif
 
 CONST_UINT(kOpMove, 0u);      // x
@@ -74,8 +78,8 @@ FN float applyHardOperation(uint op, float x, float y) {
         case kOpSqrt: r = sqrtExact(x); break;
         case kOpSin:
         case kOpCos: {
-            float s;
-            float c;
+            float s = {};
+            float c = {};
             sinCosExact(limited(x, -8000.0f, 8000.0f), s, c);
             r = op == kOpSin ? s : c;
             break;
@@ -113,8 +117,8 @@ FN float applyOperation(uint op, float x, float y, float z) {
 }
 
 FN void resetMachine(MACHINE_ONLY_PARAM) {
-    SLOT(kSlotZero) = 0.0f;
-    SLOT(kSlotOne) = 1.0f;
+    SET_SLOT(kSlotZero, 0.0f);
+    SET_SLOT(kSlotOne, 1.0f);
 }
 
 // Runs one word of code.
@@ -125,7 +129,7 @@ FN void runWord(MACHINE_PARAM uint bits, float immediate) {
     float x = sx == kSlotImmediate ? immediate : SLOT(sx);
     float y = sy == kSlotImmediate ? immediate : SLOT(sy);
     float z = sz == kSlotImmediate ? immediate : SLOT(sz);
-    SLOT((bits >> 5u) & 15u) = applyOperation(bits & 31u, x, y, z);
+    SET_SLOT((bits >> 5u) & 15u, applyOperation(bits & 31u, x, y, z));
 }
 
 FN void runCode(MACHINE_PARAM CodeBuf code, CodeRange range) {

@@ -73,7 +73,7 @@ FN uint packLeafTint(float tint, vec3 colour, uint hash) {
 }
 
 FN LeafPose unpackLeaf(uint place, uint pose, uint tint) {
-    LeafPose p;
+    LeafPose p = {};
     p.t = float(place >> 16u) * 1.52590219e-5f;
     p.mesh = (place >> 8u) & 255u;
     p.size = decodeLeafSize(place & 255u);

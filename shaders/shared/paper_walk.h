@@ -81,7 +81,7 @@ FN PaperLink paperLinkOf(SurfaceBuf surfaces, uint instance, uint level, uint ch
             }
         }
     }
-    PaperLink link;
+    PaperLink link = {};
     link.found = false;
     link.open = false;
     link.place = 0u;
@@ -151,7 +151,7 @@ FN void paperRefresh(SurfaceBuf surfaces, uint level, INOUT(WalkState) w) {
     w.orientation = surfaces.v[instance].charts.v[chart].orientation;
     uint coarsest = surfaces.v[instance].charts.v[chart].coarsestLevel;
     w.level = level < coarsest ? level : coarsest;
-    Patch p;
+    Patch p = {};
     if (patchAt(surfaces, instance, w.level, chart, w.orientation, w.walk.uv, p)) {
         standOn(w, p, rcpExact(float(surfaces.v[instance].levels[w.level].size)));
     }
@@ -174,8 +174,8 @@ FN bool startPaperWalk(SurfaceBuf surfaces, uint level, uint place, vec2 uv, vec
 }
 
 FN void rotatePaperHeading(INOUT(WalkState) w, float angle) {
-    float s;
-    float c;
+    float s = {};
+    float c = {};
     sinCosExact(angle, s, c);
     vec3 d = w.walk.direction;
     w.walk.direction = vec3(d.x * c - d.y * s, d.x * s + d.y * c, 0.0f);
@@ -248,7 +248,7 @@ FN uint paperAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(
 // Walks `length` metres. Returns kWalkDone, kWalkOpen or kWalkLost.
 FN uint paperStep(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, float length) {
     float remaining = length;
-    vec3 jointNormal;
+    vec3 jointNormal = {};
     uint event = kWalkRetry;
     while (walkGoesOn(event)) {
         event = paperAdvance(surfaces, level, w, remaining, jointNormal);

@@ -14,7 +14,7 @@ struct NodeArc {
 FN Node readNode(ExpandEnv env, uint at) { return env.nodes.v[at]; }
 FN vec3 readPosition(ExpandEnv env, uint at) { return env.nodes.v[at].position; }
 FN NodeArc readArc(ExpandEnv env, uint at) {
-    NodeArc a;
+    NodeArc a = {};
     a.arc = env.nodes.v[at].arc;
     a.chunk = env.nodes.v[at].chunk;
     a.flags = loadShared(env.nodes.v[at].flags);

@@ -18,7 +18,7 @@ FN CellPlane cellPlane(RoofGrid g, RoofRegion r, vec4 plane) {
     vec3 n = r.axisA * plane.x + r.axisB * plane.y + r.axisC * plane.z;
     n.y = n.y * g.shrink;
     vec3 o = g.origin - vec3(r.origin.x, g.base, r.origin.z);
-    CellPlane p;
+    CellPlane p = {};
     p.fx = dot3(n, g.axisX);
     p.fy = dot3(n, g.axisY);
     p.fz = dot3(n, cross3(g.axisX, g.axisY));
@@ -33,7 +33,7 @@ struct CellBox {
 FN CellBox cellBox(RoofGrid g, RoofMesh mesh, uint column, uint row) {
     float shift = (g.mesh & kGridBond) != 0u && (row & 1u) != 0u ? -0.5f : 0.0f;
     vec2 at = vec2((float(column) + shift) * g.step.x, float(row) * g.step.y);
-    CellBox b;
+    CellBox b = {};
     b.low = vec3(at.x + mesh.low.x * g.size.x, at.y + mesh.low.y * g.size.y, mesh.low.z * g.thickness);
     b.high = vec3(at.x + mesh.high.x * g.size.x, at.y + mesh.high.y * g.size.y, mesh.high.z * g.thickness);
     return b;
@@ -71,7 +71,7 @@ FN RowPlane rowPlane(CellPlane p, CellBox first, float stepY, float inverse) {
     float c = p.fz * first.low.z;
     float d = p.fz * first.high.z;
     bool level = absolute(p.fx) < 1e-6f;   // along the rows: all columns or none
-    RowPlane r;
+    RowPlane r = {};
     r.touched = p.limit - (smaller(a, b) + smaller(c, d)) - kCellSlack;
     r.whole = p.limit - (larger(a, b) + larger(c, d)) + kCellSlack;
     r.down = p.fy * stepY;
@@ -83,7 +83,7 @@ FN RowPlane rowPlane(CellPlane p, CellBox first, float stepY, float inverse) {
 }
 // No half-space at all.
 FN RowPlane openPlane() {
-    RowPlane r;
+    RowPlane r = {};
     r.touched = 1.0f;
     r.whole = 1.0f;
     r.down = 0.0f;
@@ -163,7 +163,7 @@ FN uvec2 gridRuns(RoofEnv env, RoofGrid g) {
             t1 = floorExact(limited(t1 + shift, -1e6f, 1e6f));
             w0 = larger(t0, -floorExact(limited(-(w0 + shift), -1e6f, 1e6f)));
             w1 = smaller(t1, floorExact(limited(w1 + shift, -1e6f, 1e6f)));
-            RoofRun run;
+            RoofRun run = {};
             run.touched = packRun(t0, t1, cells);
             run.whole = packRun(w0, w1, cells);
             if (i != 0u) run = joinedRuns(env.runs.v[g.firstRow + row], run);

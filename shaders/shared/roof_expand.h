@@ -23,7 +23,7 @@ struct RoofTally {
     uvec2 hash;
 };
 FN RoofTally emptyTally() {
-    RoofTally t;
+    RoofTally t = {};
     t.touched = 0u;
     t.whole = 0u;
     t.terminals = 0u;
@@ -125,7 +125,7 @@ FN void writeGrid(RoofEnv env, RoofScope shape, uint house, uint mesh, INOUT(Roo
     RoofPlace place = takePlace(env, many ? rows : 0u);
     if (!many) tally.terminals += 1u;
     if (place.grid >= env.gridRoom || (many && place.row + rows > env.rowRoom)) return;
-    RoofGrid g;
+    RoofGrid g = {};
     g.key = shape.key;
     g.origin = shape.origin;
     g.axisX = shape.axisX;
@@ -186,7 +186,7 @@ struct RoofParts {
     uint count, low, high, any, trips;
 };
 FN RoofParts partsOf(RoofEnv env, RuleRecord rule) {
-    RoofParts p;
+    RoofParts p = {};
     p.count = rule.successorCount;
     p.low = 0u;
     p.high = 0u;
@@ -258,7 +258,7 @@ struct RoofChoice {
 };
 FN RoofChoice chosenRule(MACHINE_PARAM RoofEnv env, RoofScope shape, RoofAtom atom, RoofRegion face) {
     SymbolRecord symbol = roofSymbol(env, shape.symbol);
-    RoofChoice c;
+    RoofChoice c = {};
     c.made = symbol.ruleCount != 0u;
     bool choosing = c.made && (symbol.select.count != 0u || symbol.selected.slot != kSlotImmediate || symbol.ruleCount > 1u);
     uint number = c.made ? symbol.firstRule : 0u;
@@ -289,7 +289,7 @@ FN RoofChoice chosenRule(MACHINE_PARAM RoofEnv env, RoofScope shape, RoofAtom at
 }
 
 FN RoofNumbers numbersOf(MACHINE_PARAM RoofEnv env, RuleRecord rule) {
-    RoofNumbers n;
+    RoofNumbers n = {};
     for (uint i = 0u; i < kMaxSplit; ++i) n.v[i] = 0.0f;
     uint numbers = rule.kind == kRuleSplit ? kMaxSplit : rule.kind >= kRuleScope ? kScopeValues
                    : rule.kind == kRuleJoin ? (rule.extrude != 0u ? 1u : 7u) : rule.kind == kRuleProject ? 6u
@@ -303,7 +303,7 @@ FN RoofNumbers numbersOf(MACHINE_PARAM RoofEnv env, RuleRecord rule) {
 // Applies one rule. True: `shape` is now the successor to go on with. mesh: that of the terminal that `shape` has become.
 FN bool replaceShape(MACHINE_PARAM RoofEnv env, RoofAtom atom, RoofRegion face, INOUT(RoofScope) shape, INOUT(uint) mesh,
                      INOUT(RoofTally) tally) {
-    for (uint a = 0u; a < kMaxArgs; ++a) SLOT(kSlotArg + a) = shape.args[a];
+    for (uint a = 0u; a < kMaxArgs; ++a) SET_SLOT(kSlotArg + a, shape.args[a]);
     RoofChoice choice = chosenRule(MACHINE env, shape, atom, face);
     if (!choice.made) return false;
     RuleRecord rule = choice.rule;
@@ -316,7 +316,7 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, RoofAtom atom, RoofRegion face, 
         mesh = rule.extrude;
         return false;
     }
-    RoofCells cells;
+    RoofCells cells = {};
     cells.x = 1u;
     cells.y = 1u;
     if (rule.kind == kRuleRepeat) cells = cellsOf(rule, n, shape);
@@ -330,11 +330,11 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, RoofAtom atom, RoofRegion face, 
     if (last && count != 0u && parts.count != 0u) tally.deep += 1u;
     if (count > most) count = most;
     if (last) count = 0u;
-    RoofHand hand;
+    RoofHand hand = {};
     hand.kept = shape;
     hand.has = 0u;
     hand.mesh = kNoIndex;
-    RoofPair pair;
+    RoofPair pair = {};
     pair.child = 0u;
     pair.successor = 0u;
     pair = firstPair(env, rule, parts, shape, atom.firstPiece, count, pair);
@@ -368,11 +368,11 @@ FN bool replaceShape(MACHINE_PARAM RoofEnv env, RoofAtom atom, RoofRegion face, 
 // no successor takes isn't made.)
 FN void deriveShape(RoofEnv env, uint at, INOUT(RoofTally) tally) {
 #ifdef __cplusplus
-    Machine machine;
+    Machine machine = {};
 #endif
     resetMachine(MACHINE_ONLY);
     bool first = env.wave == 0u;
-    RoofScope shape;
+    RoofScope shape = {};
     if (!first) shape = readScope(env, at);
     uint number = first ? env.starts.v[at] : shape.atom;
     RoofAtom atom = readAtom(env, number);

@@ -12,7 +12,7 @@ struct RoofChild {
     bool made;
 };
 FN RoofChild childFor(RoofScope shape, uint part) {
-    RoofChild c;
+    RoofChild c = {};
     c.shape = shape;
     c.part = part;
     c.number = 0u;
@@ -86,13 +86,13 @@ FN uint makeRegion(RoofEnv env, vec3 origin, vec3 x, vec3 y, vec2 low, vec2 high
     env.planes.v[plane] = left;
     env.planes.v[plane + 1u] = right;
     env.planes.v[plane + 2u] = top;
-    RoofPart p;
+    RoofPart p = {};
     p.a0 = low.x;
     p.a1 = high.x;
     p.firstPlane = plane;
     p.counts = 3u | (3u << 8u);
     env.parts.v[part] = p;
-    RoofRegion r;
+    RoofRegion r = {};
     r.origin = origin;
     r.axisA = x;
     r.axisB = y;
@@ -252,11 +252,11 @@ struct RoofCells {
 };
 FN RoofCells cellsOf(RuleRecord rule, RoofNumbers n, RoofScope shape) {
     bool keep = (rule.extrude & kRepeatClip) != 0u;
-    RoofCells c;
+    RoofCells c = {};
     c.step = shape.size;
     c.x = 1u;
     c.y = 1u;
-    float s;
+    float s = {};
     if ((rule.extrude & kRepeatX) != 0u) {
         c.x = cellCount(shape.size.x, n.v[0], keep, s);
         c.step.x = s;

@@ -28,9 +28,9 @@ FN vec3 regionPoint(RoofRegion r, vec3 at, float base, float stretch) {
 }
 
 FN void giveVector(MACHINE_PARAM uint slot, vec3 v) {
-    SLOT(slot) = v.x;
-    SLOT(slot + 1u) = v.y;
-    SLOT(slot + 2u) = v.z;
+    SET_SLOT(slot, v.x);
+    SET_SLOT(slot + 1u, v.y);
+    SET_SLOT(slot + 2u, v.z);
 }
 
 // Fills the slots of rule_map.h for a shape.
@@ -39,8 +39,8 @@ FN void giveLayers(MACHINE_PARAM RoofEnv env, RoofScope shape, uint house, uint 
     vec3 p = shape.origin + shape.axisX * (0.5f * shape.size.x) + shape.axisY * (0.5f * shape.size.y);
     uint i = 0u;
     do {
-        if ((layers >> i & 1u) != 0u) SLOT(kSlotLayer + i) = roofLayerAt(env.layers, env.site, i, vec2(p.x, p.z) + plotOf(env, house));
-        if ((layers >> (i + kRoofLayers) & 1u) != 0u) SLOT(kSlotLayer + kRoofLayers + i) = env.means.v[house * kRoofLayers + i];
+        if ((layers >> i & 1u) != 0u) SET_SLOT(kSlotLayer + i, roofLayerAt(env.layers, env.site, i, vec2(p.x, p.z) + plotOf(env, house)));
+        if ((layers >> (i + kRoofLayers) & 1u) != 0u) SET_SLOT(kSlotLayer + kRoofLayers + i, env.means.v[house * kRoofLayers + i]);
         i += 1u;
     } while (((layers | layers >> kRoofLayers) & 255u) >> i != 0u);
     roofOr(env.reads.v[house], layers);
@@ -64,32 +64,32 @@ FN void giveShape(MACHINE_PARAM RoofScope shape, RoofAtom atom, RoofRegion face,
     }
     giveVector(MACHINE kSlotRoofPos1, target1 + there);
     giveVector(MACHINE kSlotRoofPos2, target2 + there);
-    SLOT(kSlotRoofHeight) = atom.height;
-    SLOT(kSlotRoofSlope) = atom.slope;
-    SLOT(kSlotProjectHeight) = shape.projectHeight;
-    SLOT(kSlotSizeX) = shape.size.x;
-    SLOT(kSlotSizeY) = shape.size.y;
-    SLOT(kSlotIndex) = float(shape.place & 0xFFFFu);
-    SLOT(kSlotCount) = float(shape.place >> 16u);
-    SLOT(kSlotEaveStart) = start;
-    SLOT(kSlotEaveLength) = atom.eaveLength;
-    SLOT(kSlotJoint) = float((shape.marks >> kShapeJoint) & 15u);
-    SLOT(kSlotOwner) = (shape.marks & kShapeOwner) != 0u ? 1.0f : 0.0f;
-    SLOT(kSlotFaceKind) = float(atom.kind);
-    SLOT(kSlotTier) = float(atom.tier);
-    SLOT(kSlotWallHeight) = atom.wallHeight;
-    SLOT(kSlotHouseRandom) = atom.random;
-    SLOT(kSlotHouseShape) = float(atom.style & 255u);
-    SLOT(kSlotHouseMaterial) = float((atom.style >> 8u) & 255u);
-    SLOT(kSlotHouseTinted) = float((atom.style >> 16u) & 1u);
+    SET_SLOT(kSlotRoofHeight, atom.height);
+    SET_SLOT(kSlotRoofSlope, atom.slope);
+    SET_SLOT(kSlotProjectHeight, shape.projectHeight);
+    SET_SLOT(kSlotSizeX, shape.size.x);
+    SET_SLOT(kSlotSizeY, shape.size.y);
+    SET_SLOT(kSlotIndex, float(shape.place & 0xFFFFu));
+    SET_SLOT(kSlotCount, float(shape.place >> 16u));
+    SET_SLOT(kSlotEaveStart, start);
+    SET_SLOT(kSlotEaveLength, atom.eaveLength);
+    SET_SLOT(kSlotJoint, float((shape.marks >> kShapeJoint) & 15u));
+    SET_SLOT(kSlotOwner, (shape.marks & kShapeOwner) != 0u ? 1.0f : 0.0f);
+    SET_SLOT(kSlotFaceKind, float(atom.kind));
+    SET_SLOT(kSlotTier, float(atom.tier));
+    SET_SLOT(kSlotWallHeight, atom.wallHeight);
+    SET_SLOT(kSlotHouseRandom, atom.random);
+    SET_SLOT(kSlotHouseShape, float(atom.style & 255u));
+    SET_SLOT(kSlotHouseMaterial, float((atom.style >> 8u) & 255u));
+    SET_SLOT(kSlotHouseTinted, float((atom.style >> 16u) & 1u));
     giveVector(MACHINE kSlotHouseColour, atom.colour);
-    SLOT(kSlotCorners) = atom.corners.x;
-    SLOT(kSlotCorners + 1u) = atom.corners.y;
-    SLOT(kSlotHouseOverhang) = atom.overhang;
-    SLOT(kSlotHouseChimneys) = float((atom.style >> kAtomChimneys) & 3u);
-    SLOT(kSlotHouseOpen) = (atom.style & kAtomOpen) != 0u ? 1.0f : 0.0f;
+    SET_SLOT(kSlotCorners, atom.corners.x);
+    SET_SLOT(kSlotCorners + 1u, atom.corners.y);
+    SET_SLOT(kSlotHouseOverhang, atom.overhang);
+    SET_SLOT(kSlotHouseChimneys, float((atom.style >> kAtomChimneys) & 3u));
+    SET_SLOT(kSlotHouseOpen, (atom.style & kAtomOpen) != 0u ? 1.0f : 0.0f);
     uint covered = atom.style >> kAtomShared;
-    SLOT(kSlotWallShared) = covered == kAtomClosed ? atom.wallHeight : 0.25f * float(covered);
+    SET_SLOT(kSlotWallShared, covered == kAtomClosed ? atom.wallHeight : 0.25f * float(covered));
 }
 
 // A rule's numbers, kept while its successors' code runs.
@@ -117,8 +117,8 @@ FN RoofScope applyScope(RoofNumbers n, RoofScope shape) {
     if (size.x >= 0.0f) shape.size.x = size.x;
     if (size.y >= 0.0f) shape.size.y = size.y;
     if (size.z >= 0.0f) shape.thickness = size.z;
-    float s;
-    float c;
+    float s = {};
+    float c = {};
     if (turn != 0.0f) {
         sinCosExact(limited(turn, -100.0f, 100.0f), s, c);
         vec3 x = shape.axisX * c + shape.axisY * s;
@@ -138,7 +138,7 @@ FN RoofScope applyScope(RoofNumbers n, RoofScope shape) {
 
 // What expansion begins with: a segment at the wall's foot.
 FN RoofScope startShape(RoofAtom atom, uint number, uint symbol) {
-    RoofScope s;
+    RoofScope s = {};
     s.key = atom.key;
     s.origin = atom.foot;
     s.axisX = atom.tangent;

@@ -41,17 +41,17 @@ layout(binding = 2, scalar) uniform MapWords { uint mapWords[kUniformMapWords]; 
 
 // Compilers leave out the words of members that nobody asks for.
 SymbolRecord roofSymbol(RoofEnv env, uint i) {
-    SymbolRecord s;
+    SymbolRecord s = {};
     FILL_SymbolRecord(s, SYMBOL_WORD, i * kSymbolRecord_words)
     return s;
 }
 RuleRecord roofRule(RoofEnv env, uint i) {
-    RuleRecord r;
+    RuleRecord r = {};
     FILL_RuleRecord(r, RULE_WORD, i * kRuleRecord_words)
     return r;
 }
 SuccessorRecord roofSuccessor(RoofEnv env, uint i) {
-    SuccessorRecord s;
+    SuccessorRecord s = {};
     FILL_SuccessorRecord(s, SUCCESSOR_WORD, i * kSuccessorRecord_words)
     return s;
 }
@@ -60,12 +60,12 @@ uint roofWordsOf(RoofEnv env, uint i) {
     return SUCCESSOR_WORD(i * kSuccessorRecord_words + kSuccessorRecord_code + kCodeRange_count);
 }
 Value roofValue(RoofEnv env, uint i) {
-    Value v;
+    Value v = {};
     FILL_Value(v, VALUE_WORD, i * kValue_words)
     return v;
 }
 CodeWord roofCode(RoofEnv env, uint i) {
-    CodeWord c;
+    CodeWord c = {};
     FILL_CodeWord(c, CODE_WORD, i * kCodeWord_words)
     return c;
 }
@@ -82,7 +82,7 @@ FN void runRoofCode(MACHINE_PARAM RoofEnv env, CodeRange range) {
 }
 FN void drawRoofSites(MACHINE_PARAM RoofEnv env, uint firstSite, uint siteCount, u64 key) {
     uint j = 0u;
-    if (siteCount != 0u) do SLOT(kSlotDraw + j) = drawSite(roofSiteAt(env, firstSite + j), key, key);
+    if (siteCount != 0u) do SET_SLOT(kSlotDraw + j, drawSite(roofSiteAt(env, firstSite + j), key, key));
         while (++j < siteCount);
 }
 

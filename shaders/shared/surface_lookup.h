@@ -75,7 +75,7 @@ FN Cell cellAt(float fsize, vec2 uv) {
     uint c1 = texelColumn(x + 1u);
     uint r0 = texelRow(size, y);
     uint r1 = texelRow(size, y + 1u);
-    Cell c;
+    Cell c = {};
     c.at00 = r0 + c0;
     c.at10 = r0 + c1;
     c.at01 = r1 + c0;
@@ -103,7 +103,7 @@ FN CellBlend blendOf(Cell c, float fsize, uint chart, vec2 uv, Texel t00, Texel 
     vec3 high = t11.position - t01.position;
     vec3 left = t01.position - t00.position;
     vec3 right = t11.position - t10.position;
-    CellBlend b;
+    CellBlend b = {};
     b.du = (low * ey + high * fy) * fsize;
     b.dv = (left * ex + right * fx) * fsize;
     b.position = t00.position + low * (fx * ey) + (left + high * fx) * fy;
@@ -183,7 +183,7 @@ FN bool patchAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, floa
 FN bool surfaceAt(SurfaceBuf surfaces, uint instance, uint level, uint chart, vec2 uv, OUT(vec3) position,
                   OUT(vec3) du, OUT(vec3) dv) {
     uint coarsest = surfaces.v[instance].charts.v[chart].coarsestLevel;
-    Patch p;
+    Patch p = {};
     bool found = patchAt(surfaces, instance, level < coarsest ? level : coarsest, chart, 1.0f, uv, p);
     position = p.position;
     du = p.du;

@@ -39,7 +39,7 @@ struct Reach {
 };
 
 FN Reach reachInside(WalkState w, Stretch s, float texel) {
-    Reach r;
+    Reach r = {};
     r.to = w.walk.uv + s.delta;
     r.place = w.walk.place;
     r.level = w.level;
@@ -83,7 +83,7 @@ FN void reachBeyond(SurfaceBuf surfaces, uint level, WalkState w, vec2 delta, Ex
         r.joint = crossingJoint(c.flags);
         uint toChart = c.target & 0xFFFFu;
         r.place = (toInstance << 16u) | toChart;
-        uint coarsest;
+        uint coarsest = {};
         readChart(surfaces, toInstance, toChart, r.orientation, coarsest);
         r.level = level < coarsest ? level : coarsest;
         // Seen from outside, the far chart lies on the other side of the edge; mirrored UVs swap sides.
@@ -214,7 +214,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
                               w.clear, (w.flags & kWalkFlagLoose) != 0u);
         if (leave.fraction <= 1.0f) reachBeyond(surfaces, level, w, s.delta, leave, r);
     }
-    Patch p;
+    Patch p = {};
     bool found = patchAt(surfaces, r.place >> 16u, r.level, r.place & 0xFFFFu, r.orientation, r.to, p);
     return takeReach(w, remaining, s, r, p, found, texel, scale, jointNormal);
 }
@@ -222,7 +222,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
 // Walks `length` metres, through everything in between. Returns kWalkDone, kWalkOpen or kWalkLost.
 FN uint walkStep(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, float length) {
     float remaining = length;
-    vec3 jointNormal;
+    vec3 jointNormal = {};
     uint event = kWalkRetry;
     while (walkGoesOn(event)) {
         event = walkAdvance(surfaces, level, w, remaining, jointNormal);

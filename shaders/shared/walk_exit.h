@@ -25,7 +25,7 @@ FN Exit findExit(SurfaceBuf surfaces, uint instance, uint level, uint chart, vec
     float gap = loose ? 1.0f * texel : 0.002f * texel;      // along a segment, beyond its ends
     // Outside the border already; less than the nudge, or both sides of a slit would catch.
     float behind = loose ? 2.0f * texel : 0.0035f * texel;
-    Exit best;
+    Exit best = {};
     best.fraction = 2.0f;
     best.along = 0.0f;
     best.crossing = 0u;

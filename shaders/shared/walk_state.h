@@ -24,6 +24,8 @@ struct WalkState {
     uint flags;          // bits 7..0 tries, 8: last read was creased, 9: search crossings loosely, 10: step moved,
                          // 11: a cut for the turning is under way, 12: kWalkFlagOver, 13: kWalkFlagBeside, 31..16: pieces walked
 };
+RECORD_WORDS(WalkState)
+RECORD_OFFSETS(WalkState)
 
 CONST_UINT(kWalkFlagCrease, 1u << 8u);
 CONST_UINT(kWalkFlagLoose, 1u << 9u);
@@ -75,7 +77,7 @@ FN bool resumeWalk(SurfaceBuf surfaces, uint level, Walk walk, OUT(WalkState) w)
     uint chart = walk.place & 0xFFFFu;
     w.walk = walk;
     w.walk.uv = vec2(inRange(walk.uv.x, 1.0f), inRange(walk.uv.y, 1.0f));
-    uint coarsest;
+    uint coarsest = {};
     readChart(surfaces, instance, chart, w.orientation, coarsest);
     w.level = level < coarsest ? level : coarsest;
     w.limit = 1e30f;
@@ -83,7 +85,7 @@ FN bool resumeWalk(SurfaceBuf surfaces, uint level, Walk walk, OUT(WalkState) w)
     w.leftPlace = walk.place;
     w.slip = vec2(0.0f);
     w.flags = 0u;
-    Patch p;
+    Patch p = {};
     bool found = patchAt(surfaces, instance, w.level, chart, w.orientation, w.walk.uv, p);
     standOn(w, p, rcpExact(float(levelSize(surfaces, instance, w.level))));
     vec3 across = walk.direction - p.normal * dot3(p.normal, walk.direction);
@@ -96,7 +98,7 @@ FN bool resumeWalk(SurfaceBuf surfaces, uint level, Walk walk, OUT(WalkState) w)
 // A walk from uv of a chart (place: bits 31..16 instance, 15..0 chart), along `direction` (object space, need
 // not be tangent or unit). False: no surface there.
 FN bool startWalk(SurfaceBuf surfaces, uint level, uint place, vec2 uv, vec3 direction, OUT(WalkState) w) {
-    Walk walk;
+    Walk walk = {};
     walk.place = place;
     walk.uv = uv;
     float size2 = dot3(direction, direction);
@@ -107,8 +109,8 @@ FN bool startWalk(SurfaceBuf surfaces, uint level, uint place, vec2 uv, vec3 dir
 
 // Turns the heading by `angle` radians, counterclockwise as seen from outside.
 FN void rotateHeading(INOUT(WalkState) w, float angle) {
-    float s;
-    float c;
+    float s = {};
+    float c = {};
     sinCosExact(angle, s, c);
     vec3 side = cross3(w.normal, w.walk.direction);
     w.walk.direction = unit3(w.walk.direction * c + side * s);

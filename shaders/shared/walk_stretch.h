@@ -42,7 +42,7 @@ struct Stretch {
 // What remains, unless the surface turns or it is very many texels. wanted: what remains, object metres. texel: of the
 // level that w stands on, in UV.
 FN Stretch stretchOf(WalkState w, float wanted, float texel) {
-    Stretch s;
+    Stretch s = {};
     s.rate = spreadRate(w.du, w.dv, w.spread, w.walk.direction);
     s.pace = length2(s.rate);
     float most = (w.flags & kWalkFlagCrease) != 0u ? kWalkCreaseTexels : kWalkMaxTexels;
@@ -76,7 +76,7 @@ struct Landing {
 FN Landing landingOf(WalkState w, Stretch s, Patch p, float texel) {
     vec3 n = w.normal;
     vec3 t = w.walk.direction;
-    Landing l;
+    Landing l = {};
     l.direction = carriedTangent(t, n, p.normal);
     vec2 rate1 = tangentRate(p.du, p.dv, l.direction);
     l.turn = dot3(n, p.normal);

@@ -44,7 +44,6 @@ int tell(const std::string& chip, const std::string& filter) {
     uint32_t beyond = 0, kernels = 0;
     for (const Shader& shader : allShaders()) {
         if (!shader.name.ends_with(".comp") || shader.name.find(filter) == std::string_view::npos) continue;
-        // As it runs: growth's kernels round alike everywhere.
         Result<KernelCost> cost = device->compile(shader.name, shader.code);
         if (!cost) return fail(cost.failure().text());
         kernels += 1;

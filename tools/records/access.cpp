@@ -33,21 +33,23 @@ struct Writer {
         switch (f.scalar) {
             case Scalar::float32: return "uintBitsToFloat(" + word(f.word) + ")";
             case Scalar::int32: return "int(" + word(f.word) + ")";
+            case Scalar::boolean: return word(f.word) + " != 0u";
             case Scalar::uint64: return "packUint2x32(uvec2(" + word(f.word) + ", " + word(f.word + 1) + "))";
             case Scalar::address:
                 return f.type + "(packUint2x32(uvec2(" + word(f.word) + ", " + word(f.word + 1) + ")))";
             default: return word(f.word);
         }
     }
-    // Word `word` of the record r.
-    static std::string toWord(const Record& r, uint32_t word) {
+    // Word `word` of the record that `variable` holds.
+    static std::string toWord(const Record& r, uint32_t word, const std::string& variable = "r") {
         for (const Field& f : r.fields) {
             const bool wide = f.scalar == Scalar::uint64 || f.scalar == Scalar::address;
             if (word < f.word || word >= f.word + (wide ? 2 : 1)) continue;
-            const std::string value = "r." + f.path;
+            const std::string value = variable + "." + f.path;
             if (wide) return "unpackUint2x32(uint64_t(" + value + "))." + (word == f.word ? "x" : "y");
             if (f.scalar == Scalar::float32) return "floatBitsToUint(" + value + ")";
             if (f.scalar == Scalar::int32) return "uint(" + value + ")";
+            if (f.scalar == Scalar::boolean) return "(" + value + " ? 1u : 0u)";
             return value;
         }
         return "0u";  // between members
@@ -170,13 +172,14 @@ struct Writer {
     }
 
     // Statements over words that a macro reaches: FILL_X(r, WORD, at) reads, KEEP_X(r, WORD, at) writes word WORD(at + i).
+    // The parameters' names are no member's.
     void words(const Wish& wish) {
         const Record& r = record(wish.record, wish.line);
-        const auto word = [](uint32_t i) { return "WORD((at) + " + std::to_string(i) + "u)"; };
-        out << "#define FILL_" << r.name << "(r, WORD, at)";
-        for (const Field& f : r.fields) out << " \\\n    r." << f.path << " = " << fromWords(f, word) << ";";
-        out << "\n#define KEEP_" << r.name << "(r, WORD, at)";
-        for (uint32_t i = 0; i < r.words; ++i) out << " \\\n    " << word(i) << " = " << toWord(r, i) << ";";
+        const auto word = [](uint32_t i) { return "WORD((FIRST) + " + std::to_string(i) + "u)"; };
+        out << "#define FILL_" << r.name << "(RECORD, WORD, FIRST)";
+        for (const Field& f : r.fields) out << " \\\n    RECORD." << f.path << " = " << fromWords(f, word) << ";";
+        out << "\n#define KEEP_" << r.name << "(RECORD, WORD, FIRST)";
+        for (uint32_t i = 0; i < r.words; ++i) out << " \\\n    " << word(i) << " = " << toWord(r, i, "RECORD") << ";";
         out << "\n";
     }
 

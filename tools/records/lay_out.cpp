@@ -19,7 +19,7 @@ bool vectorOf(const std::string& type, Vector& out) {
         {"uint", {Scalar::uint, 1}},     {"uvec2", {Scalar::uint, 2}},   {"uvec3", {Scalar::uint, 3}},
         {"uvec4", {Scalar::uint, 4}},    {"int", {Scalar::int32, 1}},    {"ivec2", {Scalar::int32, 2}},
         {"ivec3", {Scalar::int32, 3}},   {"float", {Scalar::float32, 1}}, {"vec2", {Scalar::float32, 2}},
-        {"vec3", {Scalar::float32, 3}},  {"vec4", {Scalar::float32, 4}}, {"u64", {Scalar::uint64, 1}}};
+        {"vec3", {Scalar::float32, 3}},  {"vec4", {Scalar::float32, 4}}, {"u64", {Scalar::uint64, 1}},  {"bool", {Scalar::boolean, 1}}};
     const auto it = kTypes.find(type);
     if (it == kTypes.end()) return false;
     out = it->second;

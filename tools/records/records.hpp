@@ -10,7 +10,7 @@
 
 namespace espalier::records {
 
-enum class Scalar { uint, int32, float32, uint64, address };
+enum class Scalar { uint, int32, float32, boolean, uint64, address };
 
 // A word of a record, or two of an uint64 or address.
 struct Field {
