@@ -64,6 +64,7 @@ Status Growth::uploadInputs(Commands& commands, const GrowthInputs& inputs, cons
 
 void Growth::recordWaves(Pass& pass, const Program& march, const ExpandEnv& base, uint32_t first, uint32_t last) {
     ExpandEnv env = base;
+    stats_.dispatches += last - first;
     for (uint32_t w = first; w < last; ++w) {
         env.wave = w;
         env.items = addressOf<WorkItemBuf>(items_[w & 1]);
@@ -95,6 +96,7 @@ void Growth::recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimi
     env.phase = kTerminalsWrite;
     constexpr uint64_t kNodes = offsetof(GrowStatus, nodeGroups), kBranches = offsetof(GrowStatus, branchGroups);
     bool capped = limits.leafDensityCap > 0, joined = limits.tangents == TangentMode::paper;
+    stats_.dispatches += 3 + (joined ? 1 : 0) + (capped ? 1 : 0);
     if (capped || joined) {
         commands.fill(density_, 0);
         commands.barrier(Use::transfer, Use::compute);
@@ -214,6 +216,7 @@ Status Growth::grow(const GrowthInputs& inputs) {
     if (inputs.watch) inputs.watch->begin();
     Status usable = checkInputs(inputs);
     if (!usable) return usable;
+    stats_.dispatches = 0;
     if (canRegrow(inputs)) {
         const bool closes = !gappyLinks() && gappy(inputs);
         if (closes)

@@ -102,6 +102,7 @@ struct GrowthStats {
     uint64_t reservedBytes = 0;  // of all buffers held: both sets of records, queues, scratch
     uint64_t hash = 0;           // canonical: positions, radii and all terminals, independent of order
     bool native = false;         // it ran as native code
+    uint32_t dispatches = 0;     // of kernels that wait for each other, in the latest grow(); none of native code
     double expandMs = 0;         // GPU time of the attempt that succeeded; of native code, wall time
     double marchMs = 0, terminalsMs = 0, fitMs = 0;
 };

@@ -128,6 +128,7 @@ Status Growth::uploadTables(Commands& commands, const GrowthInputs& inputs, bool
     commands.barrier(Use::transfer, Use::compute | Use::indirect);
     if (grammars.empty() || !pack) return Done{};
     Pass pass(commands, "expand tables");
+    stats_.dispatches += 1;
     pass.dispatch(kernel(GrowthKernel::tables), {uint32_t(grammars.size()), 1, 1},
                   environment(inputs, plants_.drawn(), links_.drawn()));
     pass.barrier(Use::compute, Use::compute);

@@ -162,6 +162,7 @@ Result<AgainState> Growth::findDirty(const GrowthInputs& inputs, const SeedChang
     }
     {
         Pass pass(*commands, "expand find");
+        stats_.dispatches += 2;
         pass.dispatch(kernel(GrowthKernel::find), spreadGroups(), env);
         pass.barrier(Use::compute, Use::compute);
         pass.dispatch(kernel(GrowthKernel::start), spreadGroups(), env);
@@ -178,6 +179,7 @@ Result<AgainState> Growth::findDirty(const GrowthInputs& inputs, const SeedChang
 // Everything after the march; does nothing while waves are left, or where it can't be published.
 void Growth::recordAgain(Commands& commands, ExpandEnv env) {
     const auto groups = spreadGroups();
+    stats_.dispatches += 6;
     {
         Pass pass(commands, "expand terminals");
         pass.dispatch(kernel(GrowthKernel::settle), groups, env);

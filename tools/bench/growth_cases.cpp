@@ -77,6 +77,8 @@ void growthCases(Bench& bench) {
             bench.add({row + "/native", "growth as native code, a second of CPU time", "nodes/s", m.coreNodesPerSecond,
                        "as shaders", shaders.coreNodesPerSecond});
         const GrowthStats& s = m.stats;
+        bench.add({row + "/dispatches", "kernels that wait for each other, as shaders", "dispatches",
+                   double(shaders.stats.dispatches), "waves of the queue", double(shaders.stats.waves)});
         bench.add({row + "/nodes", "nodes grown", "nodes", stepsOf(s), "asked for", 500000});
         bench.add({row + "/gpu", "time of expansion", "ms", s.expandMs, "of it marching", s.marchMs});
         bench.add({row + "/memory", "bytes of a bark node, chunks too", "B",

@@ -13,9 +13,11 @@ using namespace espalier;
 
 namespace {
 
-int fail(const std::string& message) {
+constexpr int kNoDevice = 3;
+
+int fail(const std::string& message, int code = 2) {
     std::fprintf(stderr, "espalier-gpus: %s\n", message.c_str());
-    return 2;
+    return code;
 }
 
 void printHead(const NullDevice& device) {
@@ -39,7 +41,7 @@ bool printRow(std::string_view chip, std::string_view kernel, const KernelCost& 
 
 int tell(const std::string& chip, const std::string& filter) {
     Result<NullDevice> device = NullDevice::open(chip);
-    if (!device) return fail(device.failure().text());
+    if (!device) return fail(device.failure().text(), kNoDevice);
     printHead(*device);
     uint32_t beyond = 0, kernels = 0;
     for (const Shader& shader : allShaders()) {
@@ -60,7 +62,7 @@ int tellFile(const std::string& chip, const std::string& path) {
     if (bytes.empty() || bytes.size() % 4 != 0) return fail(path + ": there is no SPIR-V in it");
     const std::span<const uint32_t> words(reinterpret_cast<const uint32_t*>(bytes.data()), bytes.size() / 4);
     Result<NullDevice> device = NullDevice::open(chip);
-    if (!device) return fail(device.failure().text());
+    if (!device) return fail(device.failure().text(), kNoDevice);
     printHead(*device);
     Result<KernelCost> cost = device->compile(path, words);
     if (!cost) return fail(cost.failure().text());
@@ -71,7 +73,7 @@ int run(int argc, char** argv) {
     CLI::App app{
         "Compiles Espalier's compute kernels by Mesa's compiler for AMD's GPUs, without a GPU, and prints the "
         "registers, scratch memory and instructions that they take. Ends with 1 where a kernel is beyond its "
-        "budget (tools/gpus/budgets.cpp), with 2 where it can't tell."};
+        "budget (tools/gpus/budgets.cpp), with 2 where it can't tell, with 3 where this Mesa doesn't know the chip."};
     std::string chip = "navi21", filter, module;
     app.add_option("--gpu", chip, "the chip, as Mesa calls it: navi21, polaris10, …")->capture_default_str();
     app.add_option("--filter", filter, "only kernels whose path contains this");

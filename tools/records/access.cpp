@@ -1,5 +1,5 @@
-// What the generator writes: reads and writes of whole records in pairs of words, parts of records, records from texels,
-// records over words of any memory, and where words lie.
+// What the generator writes: reads and writes of whole records in pairs of words, parts of records, records from
+// texels, records over words of any memory, and where words lie.
 #include <sstream>
 #include <stdexcept>
 
@@ -31,13 +31,18 @@ struct Writer {
     template <class Word>
     static std::string fromWords(const Field& f, const Word& word) {
         switch (f.scalar) {
-            case Scalar::float32: return "uintBitsToFloat(" + word(f.word) + ")";
-            case Scalar::int32: return "int(" + word(f.word) + ")";
-            case Scalar::boolean: return word(f.word) + " != 0u";
-            case Scalar::uint64: return "packUint2x32(uvec2(" + word(f.word) + ", " + word(f.word + 1) + "))";
+            case Scalar::float32:
+                return "uintBitsToFloat(" + word(f.word) + ")";
+            case Scalar::int32:
+                return "int(" + word(f.word) + ")";
+            case Scalar::boolean:
+                return word(f.word) + " != 0u";
+            case Scalar::uint64:
+                return "packUint2x32(uvec2(" + word(f.word) + ", " + word(f.word + 1) + "))";
             case Scalar::address:
                 return f.type + "(packUint2x32(uvec2(" + word(f.word) + ", " + word(f.word + 1) + ")))";
-            default: return word(f.word);
+            default:
+                return word(f.word);
         }
     }
     // Word `word` of the record that `variable` holds.
@@ -148,8 +153,7 @@ struct Writer {
 
     void offsets(const Wish& wish) {
         const Record& r = record(wish.record, wish.line);
-        for (const Member& m : r.members)
-            out << "CONST_UINT(k" << r.name << "_" << m.name << ", " << m.word << "u);\n";
+        for (const Member& m : r.members) out << "CONST_UINT(k" << r.name << "_" << m.name << ", " << m.word << "u);\n";
         out << "CONST_UINT(k" << r.name << "_words, " << r.words << "u);\n";
     }
 
@@ -163,16 +167,15 @@ struct Writer {
         out << "#ifndef __cplusplus\n" << r.name << " texels" << r.name << "(";
         for (uint32_t i = 0; i < count; ++i) out << (i ? ", " : "") << "uvec4 t" << i;
         out << ") {\n";
-        assign(r.name, r.fields,
-               [](uint32_t word) { return "t" + std::to_string(word / 4) + "." + "xyzw"[word % 4]; });
+        assign(r.name, r.fields, [](uint32_t word) { return "t" + std::to_string(word / 4) + "." + "xyzw"[word % 4]; });
         out << "#define FETCH_" << r.name << "(FETCH, view, i) texels" << r.name << "(";
         for (uint32_t i = 0; i < count; ++i)
             out << (i ? ", " : "") << "FETCH(view, " << count << "u * (i) + " << i << "u)";
         out << ")\n#endif\n";
     }
 
-    // Statements over words that a macro reaches: FILL_X(r, WORD, at) reads, KEEP_X(r, WORD, at) writes word WORD(at + i).
-    // The parameters' names are no member's.
+    // Statements over words that a macro reaches: FILL_X(r, WORD, at) reads, KEEP_X(r, WORD, at) writes word WORD(at +
+    // i). The parameters' names are no member's.
     void words(const Wish& wish) {
         const Record& r = record(wish.record, wish.line);
         const auto word = [](uint32_t i) { return "WORD((FIRST) + " + std::to_string(i) + "u)"; };
@@ -187,11 +190,21 @@ struct Writer {
         for (const Wish& wish : header.wishes) {
             out << "\n";
             switch (wish.kind) {
-                case Wish::Kind::access: access(wish); break;
-                case Wish::Kind::part: part(wish); break;
-                case Wish::Kind::offsets: offsets(wish); break;
-                case Wish::Kind::texels: texels(wish); break;
-                case Wish::Kind::words: words(wish); break;
+                case Wish::Kind::access:
+                    access(wish);
+                    break;
+                case Wish::Kind::part:
+                    part(wish);
+                    break;
+                case Wish::Kind::offsets:
+                    offsets(wish);
+                    break;
+                case Wish::Kind::texels:
+                    texels(wish);
+                    break;
+                case Wish::Kind::words:
+                    words(wish);
+                    break;
             }
         }
     }
@@ -203,7 +216,8 @@ std::string accessOf(const Records& all, const Header& header) {
     Writer writer{all, header, {}};
     writer.writeAll();
     std::string guard = "ESPALIER_RECORDS_" + header.path;
-    for (char& c : guard) c = std::isalnum(static_cast<unsigned char>(c)) ? char(std::toupper(static_cast<unsigned char>(c))) : '_';
+    for (char& c : guard)
+        c = std::isalnum(static_cast<unsigned char>(c)) ? char(std::toupper(static_cast<unsigned char>(c))) : '_';
     return "// Made by tools/records from " + header.path + ".\n#ifndef " + guard + "\n#define " + guard +
            "\n#include \"shaders/shared/pairs.h\"\n#include \"" + header.path + "\"\n\nESPALIER_BEGIN\n" +
            writer.out.str() + "\nESPALIER_END\n#endif\n";

@@ -16,10 +16,11 @@ struct Vector {
 
 bool vectorOf(const std::string& type, Vector& out) {
     static const std::map<std::string, Vector> kTypes = {
-        {"uint", {Scalar::uint, 1}},     {"uvec2", {Scalar::uint, 2}},   {"uvec3", {Scalar::uint, 3}},
-        {"uvec4", {Scalar::uint, 4}},    {"int", {Scalar::int32, 1}},    {"ivec2", {Scalar::int32, 2}},
-        {"ivec3", {Scalar::int32, 3}},   {"float", {Scalar::float32, 1}}, {"vec2", {Scalar::float32, 2}},
-        {"vec3", {Scalar::float32, 3}},  {"vec4", {Scalar::float32, 4}}, {"u64", {Scalar::uint64, 1}},  {"bool", {Scalar::boolean, 1}}};
+        {"uint", {Scalar::uint, 1}},    {"uvec2", {Scalar::uint, 2}},    {"uvec3", {Scalar::uint, 3}},
+        {"uvec4", {Scalar::uint, 4}},   {"int", {Scalar::int32, 1}},     {"ivec2", {Scalar::int32, 2}},
+        {"ivec3", {Scalar::int32, 3}},  {"float", {Scalar::float32, 1}}, {"vec2", {Scalar::float32, 2}},
+        {"vec3", {Scalar::float32, 3}}, {"vec4", {Scalar::float32, 4}},  {"u64", {Scalar::uint64, 1}},
+        {"bool", {Scalar::boolean, 1}}};
     const auto it = kTypes.find(type);
     if (it == kTypes.end()) return false;
     out = it->second;
@@ -54,8 +55,10 @@ struct LayOut {
     uint32_t aligned(Record& r, const std::string& type, uint32_t at) {
         Vector v{};
         bool eights = type.ends_with("Buf") || type.ends_with("Buffer");
-        if (vectorOf(type, v)) eights = v.scalar == Scalar::uint64;
-        else if (!eights && lay(type)) eights = all.structs.at(type).eights;
+        if (vectorOf(type, v))
+            eights = v.scalar == Scalar::uint64;
+        else if (!eights && lay(type))
+            eights = all.structs.at(type).eights;
         r.eights = r.eights || eights;
         return eights ? (at + 1) / 2 * 2 : at;
     }

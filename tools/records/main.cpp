@@ -30,8 +30,8 @@ void write(const fs::path& path, const std::string& text) {
 
 }  // namespace
 
-// espalier-records SOURCE OUT HEADER...: headers are paths below SOURCE. For shaders/shared/x.h that asks for something,
-// OUT/records/x.h is written.
+// espalier-records SOURCE OUT HEADER...: headers are paths below SOURCE. For shaders/shared/x.h that asks for
+// something, OUT/records/x.h is written.
 int main(int argc, char** argv) {
     if (argc < 4) {
         std::fprintf(stderr, "usage: espalier-records SOURCE OUT HEADER...\n");

@@ -28,7 +28,8 @@ struct Reader {
     void read(const std::string& text) {
         const size_t slashes = text.find("//");
         const std::string code = trimmed(std::string_view(text).substr(0, slashes));
-        const std::string comment = slashes == std::string::npos ? "" : trimmed(std::string_view(text).substr(slashes + 2));
+        const std::string comment =
+            slashes == std::string::npos ? "" : trimmed(std::string_view(text).substr(slashes + 2));
         std::smatch m;
         static const std::regex kStruct(R"(struct (\w+) \{)"), kSize(R"(STATIC_SIZE\((\w+), (\d+)\);)");
         static const std::regex kBuffer(R"(BUFFER\((\w+), (\w+)\))"), kConstant(R"(CONST_UINT\((\w+), (\d+)u\);)");
@@ -65,7 +66,8 @@ struct Reader {
     }
     // "vec3 du, dv;" or "uint reads[3];".
     void readMembers(const std::string& code, const std::string& comment) {
-        static const std::regex kLine(R"((\w+) ([^;(]+);)"), kName(R"((\w+)(?:\[(\w+)\])?)"), kSource(R"(= (\w[\w.\[\]]*).*)");
+        static const std::regex kLine(R"((\w+) ([^;(]+);)"), kName(R"((\w+)(?:\[(\w+)\])?)"),
+            kSource(R"(= (\w[\w.\[\]]*).*)");
         std::smatch m, s;
         if (!std::regex_match(code, m, kLine)) return giveUp();
         std::stringstream names(m[2]);
