@@ -192,8 +192,8 @@ class Importer {
         return Done{};
     }
 
-    using PrimitiveId = std::pair<int, size_t>;                       // mesh, primitive
-    using Kept = std::tuple<PrimitiveId, bool, std::vector<double>>;  // with its skin's joints, morphed by weights
+    using PrimitiveId = std::pair<int, size_t>;                         // mesh, primitive
+    using Kept = std::tuple<PrimitiveId, size_t, std::vector<double>>;  // for so many joints, morphed by weights
 
     Status add(const tinygltf::Primitive& from, const Placement& at, const std::vector<double>& weights,
                PrimitiveId id) {
@@ -215,7 +215,7 @@ class Importer {
             material = 0;
         }
         // What is placed once is not kept.
-        const Kept key{id, !at.joints.empty(), weights};
+        const Kept key{id, at.joints.size(), weights};
         auto known = kept_.find(key);
         Primitive once;
         if (known == kept_.end()) {
