@@ -181,6 +181,18 @@ TEST_CASE("what is transparent is drawn so: by alpha, or by transmission") {
     CHECK(glass.alphaCutoff == 0);
 }
 
+TEST_CASE("what is blended is transparent where its vertices' colours are, too") {
+    for (float alpha : {0.25f, 1.0f}) {
+        GltfMaker maker = painted({{"alphaMode", "BLEND"}});
+        std::vector<float> colours(16, 1.0f);
+        for (size_t v = 0; v < 4; ++v) colours[v * 4 + 3] = alpha;
+        maker.primitive()["attributes"]["COLOR_0"] = maker.add(colours, "VEC4");
+        CHECK(maker.importOrFail().materials[0].blended == (alpha < 1));
+        maker.root["materials"] = {Json::object()};
+        CHECK(!maker.importOrFail().materials[0].blended);
+    }
+}
+
 TEST_CASE("an empty primitive is left out, and said so") {
     GltfMaker maker = squareMaker();
     const Json full = maker.primitive();

@@ -61,6 +61,7 @@ class Importer {
         if (model_.indices.empty()) return Failure(document_.path, "the file holds no triangles" + whyNone());
         settle(places_, model_.indices, options_.origin, model_);
         model_.colours.resize(anyColours_ ? places_.size() : 0, glm::vec4(1));
+        blendByColours();
         if (!anyUvs_) model_.uvs.clear();
         if (!anyUvs_) model_.materialUvs.clear();
         if (!anyOtherUvs_) model_.otherUvs.clear();
@@ -307,6 +308,17 @@ class Importer {
         if (transform.other >= 0 && !other.empty()) anyOtherUvs_ = true;
         if (from.normals.empty()) allNormals_ = false;
         return volumes;
+    }
+
+    // Colours of vertices may be what lets something be seen through a material.
+    void blendByColours() {
+        for (size_t i = 0; i < model_.indices.size() && anyColours_; ++i) {
+            const uint32_t material = model_.triangleMaterial[i / 3];
+            Material& m = model_.materials[material];
+            if (m.blended || !(model_.colours[model_.indices[i]].a < 1)) continue;
+            const auto& all = document_.gltf.materials;
+            if (material < all.size() && all[material].alphaMode == "BLEND") m.bare = m.blended = true;
+        }
     }
 
     // Vertices of primitives without colours are white, as are those whose colours are not numbers.
