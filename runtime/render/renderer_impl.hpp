@@ -127,10 +127,10 @@ class RendererImpl final : public Renderer {
         bool hosted = false;                                    // into a host's scene
         Shading shading = Shading::full;
         ScenePrograms* scene = nullptr;
-        bool plain = false;  // growth and props are drawn as in the shaded view
-        bool lit = false;    // what has few vertices has been lit ahead
-        bool ahead = false;  // models' depths went ahead, they are shaded after growth
-        bool glass = false;  // what is blended is drawn last
+        bool plain = false;               // growth and props are drawn as in the shaded view
+        bool lit = false;                 // what has few vertices has been lit ahead
+        bool ahead = false;               // models' depths went ahead, they are shaded after growth
+        bool glass = false;               // what is blended is drawn last
         float meadowLevel = 0, unit = 1;  // where grass grows over models
         const Buffer* frame = nullptr;
         bool shadowsBehind = false;  // what this picture shows
