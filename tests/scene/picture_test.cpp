@@ -149,6 +149,8 @@ TEST_CASE("a size is judged from the header, before anything is decoded or alloc
     // So many texels don't fit into so few bytes.
     refusedBytes(folder, "thin.png", pngOf(8000, 8000), "bytes are too few for 8000 x 8000 texels");
     refusedBytes(folder, "thin.jpg", jpegOf(8000, 8000), "bytes are too few for 8000 x 8000 texels");
+    // All rows are stated, and none of them is there.
+    refusedBytes(folder, "thin.exr", exrOf(0, 8191) + std::string(8192 * 8, '\0'), "is damaged");
     // Each scan goes over all texels, though it takes ten bytes.
     refusedBytes(folder, "scans.jpg", jpegOf(8000, 8000, 5000), "in 5000 scans are too many to be decoded");
 }
