@@ -25,12 +25,11 @@ constexpr uint64_t kMaxSide = 8192, kMaxFrameSide = 16384;  // of layers; of pic
 constexpr uint64_t kMostBytes = uint64_t(1) << 31;  // of a file
 constexpr uint64_t kMostWork = uint64_t(1) << 33;   // texels over all scans
 
-// A file in memory. The library's own reader of memory believes any offset that a file states.
-class Memory : public OIIO::Filesystem::IOProxy {
+// A file in memory. The library's own reader of memory believes any offset that a file states, but its reader of JPEG
+// takes no other.
+class Memory : public OIIO::Filesystem::IOMemReader {
   public:
-    explicit Memory(const std::string& bytes) : IOProxy("", Read), bytes_(bytes) {}
-    const char* proxytype() const override { return "memory"; }
-    size_t size() const override { return bytes_.size(); }
+    explicit Memory(const std::string& bytes) : IOMemReader(bytes.data(), bytes.size()), bytes_(bytes) {}
     size_t read(void* out, size_t size) override {
         const size_t got = pread(out, size, m_pos);
         m_pos += int64_t(got);
