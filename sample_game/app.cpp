@@ -112,7 +112,8 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
     std::string path = last ? options_.screenshot : "";
     std::error_code unknown;
     if (work_.screenshot && path.empty())
-        for (int i = 1; path.empty() || fs::exists(path, unknown); ++i) path = "espalier-" + std::to_string(i) + ".png";
+        for (int i = 1; path.empty() || fs::exists(fs::symlink_status(path, unknown)); ++i)
+            path = "espalier-" + std::to_string(i) + ".png";
     if (!path.empty())
         take = [&](const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height, const std::string& error) {
             if (error.empty()) return screenshot(path, rgba, width, height);

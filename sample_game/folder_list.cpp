@@ -64,7 +64,7 @@ std::string freeName(const std::string& path, const std::string& ending) {
     const bool ends = !ending.empty() && path.ends_with(ending);
     const std::string stem = ends ? path.substr(0, path.size() - ending.size()) : path;
     std::string name = path;
-    for (int i = 2; fs::exists(expanded(name), ignored); ++i)
+    for (int i = 2; fs::exists(fs::symlink_status(expanded(name), ignored)); ++i)
         name = stem + "-" + std::to_string(i) + (ends ? ending : "");
     return name;
 }

@@ -31,7 +31,8 @@ void runDialogues(Workspace& work, Session& session) {
     const auto named = [](const std::string& file) { return Replay::names(file) ? file : file + ".jsonl"; };
     const auto taken = [&](const std::string& file) -> Doubt {
         std::error_code ignored;
-        return {fs::exists(named(file), ignored) ? wholePath(named(file)) + " is there already." : ""};
+        return {fs::exists(fs::symlink_status(named(file), ignored)) ? wholePath(named(file)) + " is there already."
+                                                                     : ""};
     };
     askPath(work, session,
             {"Record a run", "File for what is done from now on (.jsonl):", "Record", d.run, {".jsonl"}, false, taken},

@@ -138,7 +138,8 @@ void readLayout(Layout& layout, Brush& brush, std::string& error) {
     std::error_code code;
     if (espalier::scene::configFolder().empty() || !fs::exists(file, code)) return;
     if (!read(file, record, error)) {
-        fs::copy_file(file, file + ".damaged", fs::copy_options::overwrite_existing, code);
+        fs::remove(file + ".damaged", code);  // a link, too, and not what it leads to
+        fs::copy_file(file, file + ".damaged", code);
         error += "; panels are as in the beginning, and it is kept as " + file + ".damaged";
         return;
     }

@@ -46,7 +46,8 @@ bool liesIn(const fs::path& folder, const fs::path& file) {
 
 Result<fs::path> placeBeside(const fs::path& document, std::string_view name) {
     const auto refuse = [&](const std::string& why) {
-        return Failure(document.string(), "'" + std::string(name.substr(0, 200)) + "' " + why);
+        return Failure(document.string(),
+                       "'" + std::string(name.substr(0, std::min<size_t>(200, name.find('\0')))) + "' " + why);
     };
     std::string text(name);
     std::ranges::replace(text, '\\', '/');

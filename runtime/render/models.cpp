@@ -36,9 +36,8 @@ void takeModelVertices(GraphicsDesc& desc, bool mapped) {
 void takeModelPositions(GraphicsDesc& desc, bool pictured) {
     takeModelVertices(desc, pictured);
     // What is cut out depends on the picture's and the vertices' alpha.
-    std::erase_if(desc.inputs, [&](const VertexInput& input) {
-        return input.location != 0 && !(pictured && input.location >= 3);
-    });
+    std::erase_if(desc.inputs,
+                  [&](const VertexInput& input) { return input.location != 0 && !(pictured && input.location >= 3); });
 }
 
 Result<Models> Models::create(Device& device) {

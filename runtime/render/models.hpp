@@ -45,10 +45,10 @@ class Models {
     bool anyMapped() const;  // textures by UVs of their own, or light
     bool anyGlass() const;   // blended with what lies behind
 
-    // Draws all of them as chosen, but for those that are ground only if `drawnOnly`: triangles over which the meadow at
-    // meadowLevel, in metres of `unit`, may grow by `foot`, all others by `program`; of materials that aren't plain by
-    // `mapped`. ground: of it the meadow is made, and their grain. glassApart: drawGlass() draws what is blended, else
-    // it is drawn as if it weren't.
+    // Draws all of them as chosen, but for those that are ground only if `drawnOnly`: triangles over which the meadow
+    // at meadowLevel, in metres of `unit`, may grow by `foot`, all others by `program`; of materials that aren't plain
+    // by `mapped`. ground: of it the meadow is made, and their grain. glassApart: drawGlass() draws what is blended,
+    // else it is drawn as if it weren't.
     struct Programs {
         const Program *program, *foot;
     };

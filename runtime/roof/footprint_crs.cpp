@@ -28,7 +28,7 @@ std::optional<int> epsgOf(const std::string& name) {
     std::string upper = name.substr(0, 200);
     for (char& c : upper) c = char(std::toupper(static_cast<unsigned char>(c)));
     if (upper.ends_with("CRS84") || upper.ends_with("CRS84H")) return 4326;
-    if (upper.find("EPSG") == std::string::npos) return {};
+    if (upper.find("EPSG") == std::string::npos && upper.find("ESRI") == std::string::npos) return {};
     size_t end = upper.size();
     while (end > 0 && !std::isdigit(static_cast<unsigned char>(upper[end - 1]))) --end;
     size_t begin = end;
@@ -71,6 +71,10 @@ std::optional<CoordinateSystem> CoordinateSystem::of(int epsg) {
             return CoordinateSystem{Kind::transverseMercator, grs80, {53.5, -8, .99982, 600000, 750000}};
         case 3067:
             return CoordinateSystem{Kind::transverseMercator, grs80, {0, 27, .9996, 500000, 0}};
+        case 4647:  // UTM with the zone's number before the metres
+            return CoordinateSystem{Kind::transverseMercator, grs80, {0, 9, .9996, 32500000, 0}};
+        case 5650:
+            return CoordinateSystem{Kind::transverseMercator, grs80, {0, 15, .9996, 33500000, 0}};
         case 3006:
             return CoordinateSystem{Kind::transverseMercator, grs80, {0, 15, .9996, 500000, 0}};
         case 2180:
@@ -101,23 +105,34 @@ std::optional<CoordinateSystem> CoordinateSystem::of(int epsg) {
         default:
             break;
     }
-    if (epsg >= 4001 && epsg <= 4999) return CoordinateSystem{Kind::degrees, wgs84, {}};  // nearly all are geographic
+    if (epsg >= 4001 && epsg <= 4999) return CoordinateSystem{Kind::degrees, wgs84, {}};  // most are geographic
     return zone(epsg);
 }
 
 // The families of UTM and their like: a zone of six degrees each.
 std::optional<CoordinateSystem> CoordinateSystem::zone(int epsg) {
-    constexpr Ellipsoid grs80{6378137, 298.257222101}, wgs84{6378137, 298.257223563};
+    constexpr Ellipsoid grs80{6378137, 298.257222101}, wgs84{6378137, 298.257223563}, bessel{6377397.155, 299.1528128},
+        international{6378388, 297};
+    if (epsg >= 31466 &&
+        epsg <= 31469) {  // Gauss and Krueger's zones of three degrees, by their number before the metres
+        const int number = epsg - 31464;
+        return CoordinateSystem{Kind::transverseMercator, bessel, {0, 3.0 * number, 1, number * 1e6 + 500000, 0}};
+    }
+    if (epsg >= 3942 && epsg <= 3950) {  // France's nine cones, a degree of latitude each
+        const double latitude = epsg - 3900, north = (epsg - 3941) * 1e6 + 200000;
+        return CoordinateSystem{Kind::conic, grs80, {latitude, 3, 1, 1700000, north, latitude - .75, latitude + .75}};
+    }
     struct Family {
         int first, last, firstZone;
         double north;
         Ellipsoid ellipsoid;
     };
     static constexpr Family families[] = {
-        {32601, 32660, 1, 0, wgs84},         {32701, 32760, 1, 10000000, wgs84},   // WGS 84
-        {25828, 25838, 28, 0, grs80},        {26901, 26923, 1, 0, grs80},          // ETRS89, NAD83
-        {28348, 28358, 48, 10000000, grs80}, {7846, 7859, 46, 10000000, grs80},    // GDA94, GDA2020
-        {31965, 31976, 11, 0, grs80},        {31977, 31985, 17, 10000000, grs80},  // SIRGAS 2000
+        {32601, 32660, 1, 0, wgs84},          {32701, 32760, 1, 10000000, wgs84},   // WGS 84
+        {25828, 25838, 28, 0, grs80},         {26901, 26923, 1, 0, grs80},          // ETRS89, NAD83
+        {28348, 28358, 48, 10000000, grs80},  {7846, 7859, 46, 10000000, grs80},    // GDA94, GDA2020
+        {31965, 31976, 11, 0, grs80},         {31977, 31985, 17, 10000000, grs80},  // SIRGAS 2000
+        {23028, 23038, 28, 0, international},                                       // ED50
     };
     for (const Family& f : families) {
         if (epsg < f.first || epsg > f.last) continue;

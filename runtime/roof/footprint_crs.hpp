@@ -11,7 +11,7 @@
 namespace espalier {
 
 // The number of an EPSG system in any of the usual spellings: "EPSG:25832", "urn:ogc:def:crs:EPSG::25832", an address
-// that ends in it. CRS84 is 4326. None: another authority's name.
+// that ends in it. CRS84 is 4326, and ESRI's numbers count as EPSG's. None: another authority's name.
 std::optional<int> epsgOf(const std::string& name);
 
 // The name in a GeoJSON's `crs` member, as it is written there. None: there is no such member, or it is null.

@@ -30,7 +30,7 @@ double usualSlope(RoofShape shape) {
 
 RoofHeights heightsOf(const Footprint& f, double ridge, double slope) {
     const std::optional<double> storeys = eaveOfStoreys(f);
-    double roof = ridge;
+    double roof = ridge, most = kMostRoof;
     if (ridge > 0 && f.roofHeight)
         roof = *f.roofHeight;
     else if (ridge > 0 && !f.slope && f.height && storeys && *f.height - *storeys > 0.3)
@@ -38,12 +38,12 @@ RoofHeights heightsOf(const Footprint& f, double ridge, double slope) {
     else if (ridge > 0 && !f.slope && f.roofLevels && *f.roofLevels > 0)
         roof = kStorey * *f.roofLevels;
     else if (ridge > 0 && !saysRoof(f) && 2 * ridge / slope > kHallWidth)
-        roof = std::min(roof, ridge * kHallSlope / slope);
+        roof = std::min(roof, ridge * kHallSlope / slope), most = kMostHallRoof;
     double eave = storeys.value_or(f.baseHeight + (f.open ? 1 : 2) * kStorey);
     if (f.height) {
         const double whole = std::max(*f.height - f.baseHeight, kLeastWall);
         const bool noWalls = storeys && *storeys <= f.baseHeight;
-        roof = std::min(roof, f.roofHeight || noWalls ? whole : whole * kMostRoof);
+        roof = std::min(roof, f.roofHeight || noWalls ? whole : whole * most);
         eave = f.baseHeight + whole - roof;
     }
     if (ridge > 0) roof = std::clamp(roof, 0.01, std::max(ridge * kSteepestRoof, 0.01));

@@ -11,8 +11,9 @@ constexpr double kMostRoof = 2.0 / 3;  // of a height that is given, where nothi
 constexpr double kSteepestRoof = 20;   // tangent, 87 degrees
 
 // Wider outlines of which nothing says what roof they carry are halls: their roofs are low.
-constexpr double kHallWidth = 15;     // metres
-constexpr double kHallSlope = 0.176;  // tangent of 10 degrees
+constexpr double kHallWidth = 15;          // metres
+constexpr double kHallSlope = 0.176;       // tangent of 10 degrees
+constexpr double kMostHallRoof = 1.0 / 3;  // as kMostRoof
 
 struct RoofHeights {
     double eave;  // metres above the ground

@@ -47,6 +47,7 @@ bool underground(const FeatureTags& tags) {
     const bool rises = tags.find("height") || tags.find("roof:height") || numberOr(tags, "roof:levels", 0) > 0 ||
                        numberOr(tags, "building:levels", 0) > 0;
     if (rises) return false;
+    if (tags.text("parking") == "underground") return true;
     if (tags.find("building:levels") && numberOr(tags, "building:levels:underground", 0) > 0) return true;
     const bool above = location == "overground" || location == "surface" || location == "outdoor";
     return numberOr(tags, "layer", 0) < 0 && !above;

@@ -24,11 +24,16 @@ constexpr double kNearestPole = 85;  // degrees of latitude
 constexpr const char* kConvert =
     "Convert it to WGS 84 first, for example with ogr2ogr -t_srs EPSG:4326 NEW.geojson OLD.geojson";
 
+std::string shown(const std::string& crsName) {
+    return "'" + crsName.substr(0, 80) + "'";
+}
+
 class Reader {
   public:
-    // crs: of a GeoJSON; none for plans in metres.
-    Reader(const std::string& file, Listing listing, std::optional<CoordinateSystem> crs)
-        : file_(file), listing_(listing), crs_(crs) {}
+    // crs: of a GeoJSON; none for plans in metres. crsName: as the file writes it, if it does.
+    Reader(const std::string& file, Listing listing, std::optional<CoordinateSystem> crs,
+           const std::optional<std::string>& crsName)
+        : file_(file), listing_(listing), crs_(crs), crsName_(crsName) {}
     Town town;
 
     void feature(const json& feature, size_t number) {
@@ -50,13 +55,13 @@ class Reader {
             return say(id, "has no geometry: left out");
         const std::string type = geometry["type"].get<std::string>();
         if (type == "Point" || type == "MultiPoint" || type == "MultiLineString") return leftOut_.add(type);
+        if (type != "LineString" && type != "Polygon" && type != "MultiPolygon")
+            return say(id, "is a " + type.substr(0, 40) + ", not a Polygon or MultiPolygon: left out");
         if (!geometry.contains("coordinates") || !geometry["coordinates"].is_array())
             return say(id, "has no coordinates: left out");
         const json& coordinates = geometry["coordinates"];
         if (type == "LineString") return line(coordinates, tags, id);
         if (type == "Polygon") return polygon(coordinates, tags, id);
-        if (type != "MultiPolygon")
-            return say(id, "is a " + type.substr(0, 40) + ", not a Polygon or MultiPolygon: left out");
         for (size_t i = 0; i < coordinates.size(); i++)
             polygon(coordinates[i], tags, coordinates.size() == 1 ? id : id + "#" + std::to_string(i + 1));
     }
@@ -156,7 +161,8 @@ class Reader {
     const char* bring(glm::dvec2& q) {
         if (!std::isfinite(q.x) || !std::isfinite(q.y)) return "has a coordinate that is no number";
         if (!crs_) return std::abs(q.x) > 1e7 || std::abs(q.y) > 1e7 ? "has a coordinate beyond 10,000 km" : nullptr;
-        const bool likeDegrees = std::abs(q.x) <= 180 && std::abs(q.y) <= 90;
+        // Some programs go on beyond the antimeridian: 181, not -179.
+        const bool likeDegrees = std::abs(q.x) <= 360 && std::abs(q.y) <= 90;
         (likeDegrees ? likeDegrees_ : unlikeDegrees_) = q;
         if (crs_->degrees() && !likeDegrees) return "has a coordinate out of range (degrees)";
         q = crs_->toDegrees(q);
@@ -171,16 +177,18 @@ class Reader {
         if (!wrong || right) return Done{};
         char at[80];
         std::snprintf(at, sizeof at, "%.10g, %.10g", wrong->x, wrong->y);
-        if (crs_->degrees())
-            return Failure(file_, std::string("its coordinates, such as ") + at +
-                                      ", are not WGS 84's degrees, and it names no crs in metres. " + kConvert);
-        return Failure(file_, std::string("its crs is one in metres, not WGS 84, but its coordinates, such as ") + at +
-                                  ", look like degrees. " + kConvert);
+        const std::string its = std::string("its coordinates, such as ") + at;
+        if (!crsName_)
+            return Failure(file_, its + ", are not WGS 84's degrees, and it names no crs in metres. " + kConvert);
+        const std::string named = "its crs is " + shown(*crsName_);
+        if (crs_->degrees()) return Failure(file_, named + ", but " + its + ", are not WGS 84's degrees. " + kConvert);
+        return Failure(file_, named + ", not WGS 84 but in metres, and " + its + ", look like degrees. " + kConvert);
     }
 
     const std::string& file_;
     const Listing listing_;
     const std::optional<CoordinateSystem> crs_;
+    const std::optional<std::string>& crsName_;
     std::optional<glm::dvec2> likeDegrees_, unlikeDegrees_;  // one of each kind of coordinates, if there is any
     LeftOut leftOut_;
 };
@@ -196,11 +204,11 @@ Listing listingOf(const json& features) {
 }
 
 // The system of a GeoJSON's coordinates; `said` gets a warning where it isn't WGS 84.
-Result<CoordinateSystem> systemOf(const json& document, const std::string& file, std::vector<Diagnostic>& said) {
-    const std::optional<std::string> name = crsName(document);
+Result<CoordinateSystem> systemOf(const std::optional<std::string>& name, const std::string& file,
+                                  std::vector<Diagnostic>& said) {
     const std::optional<int> epsg = name ? epsgOf(*name) : 4326;
     const std::optional<CoordinateSystem> crs = epsg ? CoordinateSystem::of(*epsg) : std::nullopt;
-    const std::string is = "its crs is '" + name.value_or("").substr(0, 80) + "', not WGS 84";
+    const std::string is = "its crs is " + shown(name.value_or("")) + ", not WGS 84";
     if (!crs) return Failure(file, is + ", and none that is known. " + kConvert);
     if (*epsg != 4326)
         said.push_back(
@@ -256,9 +264,10 @@ Result<Town> parseFootprints(const std::string& text, const std::string& file) {
     if (list && list->size() > kMostFeatures) return Failure(file, "has more than 4 million features");
     std::vector<Diagnostic> said;
     std::optional<CoordinateSystem> crs;
+    const std::optional<std::string> named = crsName(document);
     if (!plan)
-        if (Status known = assign(crs, systemOf(document, file, said)); !known) return known.failure();
-    Reader reader(file, plan ? Listing::plan : list ? listingOf(*list) : Listing::bare, crs);
+        if (Status known = assign(crs, systemOf(named, file, said)); !known) return known.failure();
+    Reader reader(file, plan ? Listing::plan : list ? listingOf(*list) : Listing::bare, crs, named);
     reader.town.diagnostics = std::move(said);
     if (list) {
         for (size_t i = 0; i < list->size(); i++) reader.feature((*list)[i], i);

@@ -141,7 +141,7 @@ class Tags {
             f_.baseHeight = 0;
         }
         countFromFoot(storeys);
-        if (f_.open && !f_.part) standOnPosts();
+        if (f_.open) standOnPosts();
         if (f_.height && f_.roofHeight && *f_.roofHeight > *f_.height - f_.baseHeight + 0.01)
             note("roof:height", "is more than the building's height: the roof takes all of that");
     }
@@ -153,11 +153,12 @@ class Tags {
         note("building:levels", "counts from the ground, and lies below the part's foot: counted from there instead");
         f_.levels = *f_.levels + f_.baseHeight / kStorey;
     }
-    // Of a roof on posts the least height is where the roof begins; posts go down to the ground.
+    // Of a roof on posts the least height is where the roof begins. Posts go down to the ground, those of a part to
+    // what it stands on.
     void standOnPosts() {
         const bool sloped = f_.shape != RoofShape::flat && !f_.roofHeight && !f_.slope;
         if (sloped && f_.height && f_.baseHeight > 0) f_.roofHeight = *f_.height - f_.baseHeight;
-        f_.baseHeight = 0;
+        if (!f_.part) f_.baseHeight = 0;
     }
     void flat() { f_.shape = RoofShape::flat, f_.shaped = true; }
 

@@ -88,7 +88,9 @@ std::optional<double> readLength(const json& value) {
     if (!number) return {};
     // The unit goes up to the next number: inches behind feet.
     const size_t next = std::min(rest.find_first_of("0123456789"), rest.size());
-    const double unit = metresOf(rest.substr(0, next));
+    std::string_view name = rest.substr(0, next);
+    if (next < rest.size() && name.ends_with('-')) name.remove_suffix(1);
+    const double unit = metresOf(name);
     rest.remove_prefix(next);
     if (unit == 0) return {};
     if (rest.empty()) return *number * unit;

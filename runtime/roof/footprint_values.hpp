@@ -12,7 +12,8 @@ constexpr size_t kLongestValue = 100;  // bytes of a text that may mean somethin
 
 std::string lowered(std::string text);
 
-// A length in metres: 12, "12", "12,5", "12 m", "250 cm", "40 ft", 40', 12'6", 12 ft 6 in. None: something else.
+// A length in metres: 12, "12", "12,5", "12 m", "250 cm", "40 ft", 40', 12'6", 12'-6", 12 ft 6 in. None: something
+// else.
 std::optional<double> readLength(const nlohmann::json& value);
 // A plain number, with a decimal point or comma, or degrees.
 std::optional<double> readNumber(const nlohmann::json& value);

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kMansardTop = 0.364;  // tangent of 20 degrees
 constexpr double kGambrelTop = 0.577;  // of 30
+constexpr double kLeastRidge = 0.5;    // metres; shorter ones are a point
 
 // Whether the shape has gables at the ends of its ridge.
 bool hasGables(RoofShape shape) {
@@ -85,15 +86,17 @@ void RoofPlanner::breakSlopes(RoofShape shape, double slope, RoofPlan& plan) {
     std::vector<double>& above = plan.input.speedsAbove;
     above = plan.input.speeds;
     if (shape == RoofShape::halfHip) {
-        // The hip begins half way up the gable.
-        double ridge = ridgeOf(plan);
-        plan.input.breakHeight = ridge > 0 ? ridge / 2 : INFINITY;
+        // The hip begins half way up the gable; higher where a third of the ridge wouldn't be left.
+        const Ridge ridge = ridgeOf(plan);
+        plan.input.breakHeight = ridge.height > 0 ? ridge.height / 2 : INFINITY;
+        if (ridge.length > kLeastRidge)
+            plan.input.breakHeight = std::max(plan.input.breakHeight, ridge.height - slope * ridge.length / 3);
         for (size_t e = 0; e < above.size(); e++)
             if (above[e] == 0 && !closed_[e]) above[e] = 1 / slope;
     }
     if (shape == RoofShape::gambrel || shape == RoofShape::mansard) {
         bool mansard = shape == RoofShape::mansard;
-        double ridge = ridgeOf(plan);
+        const double ridge = ridgeOf(plan).height;
         // A mansard's attic is a storey high; a gambrel breaks half way in.
         plan.input.breakHeight = mansard ? std::min(2.4, 0.6 * ridge) : ridge / 2;
         if (!(ridge > 0)) plan.input.breakHeight = INFINITY;
@@ -102,13 +105,30 @@ void RoofPlanner::breakSlopes(RoofShape shape, double slope, RoofPlan& plan) {
     }
 }
 
-double RoofPlanner::ridgeOf(const RoofPlan& plan) {
+RoofPlanner::Ridge RoofPlanner::ridgeOf(const RoofPlan& plan) {
+    constexpr double kSameHeight = 1e-3;  // metres
     RoofPlan whole = plan;
     whole.input.breakHeight = INFINITY;
-    double ridge = 0;
+    Ridge ridge;
     attempts_.attempt(whole, [&](Facets& facets) {
-        for (const Facets::Side& s : facets.sides)
-            if (!s.dead) ridge = std::max(ridge, facets.points[s.from].z);
+        ridge = {};
+        const auto each = [&](const auto& use) {
+            for (const Facets::Side& s : facets.sides)
+                if (!s.dead) use(facets.points[s.from]);
+        };
+        each([&](glm::dvec3 p) { ridge.height = std::max(ridge.height, p.z); });
+        // From the highest point that comes first to the farthest as high, and from there again.
+        glm::dvec2 from(0), end(0);
+        for (int round = 0; round < 2; ++round, from = end) {
+            bool first = round == 0;
+            ridge.length = 0;
+            each([&](glm::dvec3 p) {
+                if (p.z < ridge.height - kSameHeight) return;
+                if (first) from = end = glm::dvec2(p), first = false;
+                const double length = glm::distance(from, glm::dvec2(p));
+                if (length > ridge.length) ridge.length = length, end = glm::dvec2(p);
+            });
+        }
         return true;
     });
     return ridge;
@@ -148,16 +168,21 @@ void RoofPlanner::chooseGables(RoofShape shape, std::vector<double>& speeds) {
 
 void RoofPlanner::nameUnusedRidge(RoofShape shape) {
     if (hasGables(shape)) {
-        if (ridge_ && footprint_.direction && liesBetweenWalls(*ridge_, edges_))
-            say("roof:direction lies between the directions of its walls: the nearest is taken");
+        nameDirectionBetweenWalls();
         return;
     }
+    if (shape == RoofShape::shed) return nameDirectionBetweenWalls();
     const bool length = shape == RoofShape::hip || shape == RoofShape::mansard;
     if (length && (!ridge_ || liesAlong(*ridge_, edges_))) return;
     const char* key = footprint_.direction ? "roof:direction" : footprint_.orientation ? "roof:orientation" : nullptr;
-    if (!key || shape == RoofShape::shed) return;
+    if (!key) return;
     say(std::string(key) + (length ? " would turn the ridge of a hip roof, which lies along its length: ignored"
                                    : " means nothing for this shape of roof: ignored"));
+}
+
+void RoofPlanner::nameDirectionBetweenWalls() {
+    if (ridge_ && footprint_.direction && liesBetweenWalls(*ridge_, edges_))
+        say("roof:direction lies between the directions of its walls: the nearest is taken");
 }
 
 // What edges have of their own; neighbours in one line then share the first one's.

@@ -34,8 +34,12 @@ class RoofPlanner {
     void say(const std::string& what);
 
   private:
-    // The height that the plan's roof would have without a break; 0: it can't be made.
-    double ridgeOf(const RoofPlan& plan);
+    struct Ridge {
+        double height = 0, length = 0;  // of what is level at the top
+    };
+    // What the plan's roof would have without a break; a height of 0: it can't be made.
+    Ridge ridgeOf(const RoofPlan& plan);
+    void nameDirectionBetweenWalls();
     // Speeds that bring all edges to one apex over the centroid, if it lies before all of them.
     bool pyramid(double slope, std::vector<double>& speeds) const;
     void chooseGables(RoofShape shape, std::vector<double>& speeds);

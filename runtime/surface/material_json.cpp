@@ -97,7 +97,8 @@ Material materialOf(const json& object) {
     for (size_t k = 0; k < 4; ++k)
         m.baseColor[int(k)] = numberIn(memberOf(pbr, "baseColorFactor"), k, m.baseColor[int(k)]);
     const float strength = number(memberOf(extensions, kStrength), "emissiveStrength", 1);
-    for (size_t k = 0; k < 3; ++k) m.emissive[int(k)] =
+    for (size_t k = 0; k < 3; ++k)
+        m.emissive[int(k)] =
             std::clamp(strength * numberIn(memberOf(object, "emissiveFactor"), k, 0), 0.0f, kBrightest);
     m.normalScale = number(memberOf(object, "normalTexture"), "scale", 1);
     m.roughness = std::clamp(number(pbr, "roughnessFactor", 1), 0.0f, 1.0f);

@@ -53,6 +53,13 @@ uint64_t scansOf(std::span<const std::byte> bytes) {
     return scans;
 }
 
+// Behind the last scan's beginning stands the mark of the end.
+bool isCutOff(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const size_t end = text.rfind("\xFF\xD9"), last = text.rfind("\xFF\xDA");
+    return isJpeg(bytes) && last != text.npos && (end == text.npos || end < last);
+}
+
 // What the first bytes say; nothing is decoded yet.
 Result<PictureSides> sidesOf(std::span<const std::byte> bytes, std::string_view file, uint32_t maxSide) {
     constexpr uint64_t kMostWork = uint64_t(1) << 33;  // texels over all scans
@@ -68,6 +75,7 @@ Result<PictureSides> sidesOf(std::span<const std::byte> bytes, std::string_view 
         return Failure(file, size + "; 1 to " + std::to_string(maxSide) + " a side are read");
     const uint64_t texels = texelsOf(sides), scans = scansOf(bytes);
     // libjpeg takes missing ones for grey.
+    if (isCutOff(bytes)) return Failure(file, "damaged image: it is cut off");
     if (isJpeg(bytes) && bytes.size() < texels / kMostTexels)
         return Failure(file, "damaged image: " + std::to_string(bytes.size()) + " bytes are too few for " + size);
     if (scans > kMostWork / texels)

@@ -125,10 +125,13 @@ void addMeadow(vec3 plane, float metres, inout vec3 base, inout vec3 bumped) {
 
 #ifdef ESPALIER_GLASS
 // A pane: light that it throws back, over what it lets through. Premultiplied by coverage. lit: what the base colour shows, before that; glint: the sun's own image.
+// Where a blended picture has nothing, as around a decal, there is no pane.
 vec4 glass(vec4 base, vec3 bumped, vec3 eye, vec3 lit, vec3 glint) {
     float c = 1.0 - clamp(abs(dot(bumped, eye)), 0.0, 1.0);
     float smoothness = 1.0 - 0.8 * push.roughness;
-    float thrown = (0.04 + 0.96 * (c * c) * (c * c) * c) * smoothness * smoothness;
+    float there = material.transmission > 0.0 ? 1.0 : min(base.a * 16.0, 1.0);
+    float thrown = there * (0.04 + 0.96 * (c * c) * (c * c) * c) * smoothness * smoothness;
+    glint *= there;
     float cover = base.a * (1.0 - material.transmission);
     vec3 seen = lit * cover + skyColor(reflect(-eye, bumped)) * thrown + glint + emission();
     float bright = min(max(glint.r, max(glint.g, glint.b)) * frame.exposure, 1.0);

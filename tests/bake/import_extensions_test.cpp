@@ -181,6 +181,18 @@ TEST_CASE("what is transparent is drawn so: by alpha, or by transmission") {
     CHECK(glass.alphaCutoff == 0);
 }
 
+TEST_CASE("what is blended is transparent where its vertices' colours are, too") {
+    for (float alpha : {0.25f, 1.0f}) {
+        GltfMaker maker = painted({{"alphaMode", "BLEND"}});
+        std::vector<float> colours(16, 1.0f);
+        for (size_t v = 0; v < 4; ++v) colours[v * 4 + 3] = alpha;
+        maker.primitive()["attributes"]["COLOR_0"] = maker.add(colours, "VEC4");
+        CHECK(maker.importOrFail().materials[0].blended == (alpha < 1));
+        maker.root["materials"] = {Json::object()};
+        CHECK(!maker.importOrFail().materials[0].blended);
+    }
+}
+
 TEST_CASE("an empty primitive is left out, and said so") {
     GltfMaker maker = squareMaker();
     const Json full = maker.primitive();
@@ -243,6 +255,31 @@ TEST_CASE("attributes of another count than the positions, and vertices that not
     CHECK(model.uvs.empty());
     CHECK(says(warningsOf(model.warnings), "NORMAL has 2 elements, POSITION 4"));
     CHECK(says(warningsOf(model.warnings), "TEXCOORD_0 has 1 elements"));
+
+    // Nor need an accessor be right that a mesh can do without.
+    const int wide = maker.add(std::vector<float>(16, 0.0f), "VEC4");
+    maker.primitive()["attributes"].update({{"NORMAL", wide}, {"TEXCOORD_0", 99}, {"COLOR_0", 98}});
+    model = maker.importOrFail();
+    CHECK(triangleArea(model) == 1);
+    CHECK(model.normals.empty());
+    CHECK(model.uvs.empty());
+    CHECK(model.colours.empty());
+    CHECK(model.warnings.size() == 3);
+    CHECK(says(warningsOf(model.warnings), "NORMAL is left out: accessors[4]: NORMAL has 4 components"));
+    CHECK(says(warningsOf(model.warnings), "TEXCOORD_0 is left out: accessors[99] does not exist"));
+    CHECK(says(warningsOf(model.warnings), "COLOR_0 is left out: accessors[98] does not exist"));
+
+    // What isn't a number is told of, too.
+    GltfMaker blank = squareMaker();
+    const std::vector<float> blanks(12, std::numeric_limits<float>::quiet_NaN());
+    blank.primitive()["attributes"]["COLOR_0"] = blank.add(blanks, "VEC3");
+    blank.primitive()["attributes"]["TEXCOORD_0"] =
+        blank.add(std::vector<float>(blanks.begin(), blanks.begin() + 8), "VEC2");
+    model = blank.importOrFail();
+    CHECK(triangleArea(model) == 1);
+    CHECK(model.warnings.size() == 2);
+    CHECK(says(warningsOf(model.warnings), "colours that are not numbers count as white"));
+    CHECK(says(warningsOf(model.warnings), "UVs that are not numbers count as none"));
 
     std::vector<float> places = kSquare;
     for (int k = 0; k < 3; ++k) places.push_back(std::numeric_limits<float>::quiet_NaN());

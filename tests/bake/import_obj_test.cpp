@@ -96,6 +96,9 @@ TEST_CASE("OBJ: names of materials and libraries as programs write them") {
     CHECK(warns(model, "gone.mtl"));
     CHECK(warns(model, "a.obj:11: warning: material 'nobody' is not defined"));
     CHECK(model.warnings.size() == 2);
+    folder.put("wide.mtl", std::string_view("\xFF\xFEn\0e\0w\0m\0t\0l\0", 14));
+    CHECK(warns(readObj(folder, "mtllib wide.mtl\n" + kUvSquare + kSquareFace),
+                "a.obj:1: warning: materials left out: 'wide.mtl' is text in UTF-16"));
 }
 
 TEST_CASE("MTL: a texture's options are understood, also before names with blanks") {

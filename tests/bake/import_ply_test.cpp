@@ -132,6 +132,14 @@ TEST_CASE("PLY: what a model can do without is a warning") {
     CHECK(std::isnan(uvs.uvs[0].x));
     CHECK(warns(uvs, "a texture coordinate that is not a number"));
     CHECK(bake(uvs, options));
+    // As programs of Windows write what is no number, behind a byte order mark.
+    const Model other = readPly(folder, "\xEF\xBB\xBF" + plyText(6, "",
+                                                                 "element face 1\n" + kCornerList +
+                                                                     "end_header\n0 0 0\n1 0 0\n1 1 0\n1.#QNAN "
+                                                                     "-1.#IND 0\n-nan(ind) nan 1.#INF\n-1.#INF00 "
+                                                                     "0 0\n3 0 1 2\n"));
+    CHECK(areaUp(other) == 0.5);
+    CHECK(warns(other, "named by no face (3 times)"));
 }
 
 TEST_CASE("PLY: lines end in any way, and a binary body begins right behind them") {
@@ -173,8 +181,10 @@ TEST_CASE("STL: text and binary, whatever they are called") {
         binary.append(reinterpret_cast<const char*>(facet), sizeof facet);
         binary += std::string(2, '\0');
     }
+    std::string capitals = text;
+    for (char& c : capitals) c = c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
     for (const char* name : {"a.stl", "a.obj", "a.bin"})
-        for (const std::string& bytes : {text, binary}) {
+        for (const std::string& bytes : {text, capitals, binary}) {
             const Model model = readPly(folder, bytes, name);
             CHECK(areaUp(model) == 1);
             CHECK(model.warnings.empty());

@@ -120,6 +120,26 @@ TEST_CASE("a skin that can't be read is named, and its mesh stands where its nod
     with([](Json& root) { root["meshes"][0]["primitives"][0]["attributes"].erase("JOINTS_0"); }, "name no joints");
 }
 
+TEST_CASE("a mesh that two skins carry is read for each, whichever has fewer joints") {
+    for (bool fewFirst : {false, true}) {
+        CAPTURE(fewFirst);
+        GltfMaker maker = rigged(wholeWeights(), false);
+        const nlohmann::json few = {{"joints", {2}}}, all = {{"joints", {1, 2}}};
+        maker.root["skins"] = {fewFirst ? few : all, fewFirst ? all : few};
+        maker.root["nodes"].push_back({{"mesh", 0}, {"skin", 1}});
+        maker.root["scenes"] = {{{"nodes", {0, 1, 2, 3}}}};
+        const Model model = maker.importOrFail();
+        REQUIRE(model.positions.size() == 8);
+        // By both joints the upper corners are lifted; by the upper one alone all are, since the other isn't there.
+        const size_t whole = fewFirst ? 4 : 0, part = 4 - whole;
+        CHECK(model.positions[whole].z == 0);
+        CHECK(model.positions[whole + 2].z == 4);
+        CHECK(model.positions[part].z == 4);
+        CHECK(model.positions[part + 2].z == 4);
+        CHECK(says(warningsOf(model.warnings), "2 vertices have no usable weights"));
+    }
+}
+
 TEST_CASE("vertices with joints or weights that make no sense are counted") {
     GltfMaker maker = rigged<float>({1, 0, 0, 0, 0, 0, 0, 0, -1, 2, 0, 0, 1, 0, 0, 0}, false);
     maker.root["skins"] = {{{"joints", {1}}}};  // the upper corners' joint 1 is gone

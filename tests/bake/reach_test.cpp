@@ -107,3 +107,20 @@ TEST_CASE("walks that end where the model goes on count against reach; those at 
         CHECK(report.json().find("\"ended_walks\"") != std::string::npos);
     }
 }
+
+TEST_CASE("walks that end at glass that stands on the ground, or in it, don't count against reach") {
+    for (double sunk : {0.0, 0.2}) {
+        CAPTURE(sunk);
+        Kit kit;
+        kit.box({0, -0.5, 0}, {4, 0.5, 3});
+        const int pane = kit.box({0, 1 - sunk, 0}, {2.5, 1, 0.03});
+        Model model = kit.model();
+        model.materials.resize(2);
+        model.materials[1].bare = true;
+        for (int i = 0; i < kit.count(); ++i)
+            model.triangleMaterial.insert(model.triangleMaterial.end(), 2, i >= pane ? 1u : 0u);
+        const BakeReport report = bakeOrFail(model, 512).report;
+        CHECK(report.endedWalks() == 0);
+        CHECK(report.leastReachable() > 0.99);
+    }
+}

@@ -164,8 +164,7 @@ std::vector<ContactLine> Oracle::intersections() const {
         if (glm::dot(normalOf(triangles_[x.info()].p), normalOf(triangles_[y.info()].p)) < kAgainst) return;
         auto shared = CGAL::intersection(shapes[x.info()], shapes[y.info()]);
         if (!shared) return;
-        if (const auto* s = heldAs<Kernel::Segment_3>(*shared))
-            lines.push_back({from(s->source()), from(s->target())});
+        if (const auto* s = heldAs<Kernel::Segment_3>(*shared)) lines.push_back({from(s->source()), from(s->target())});
     });
     return lines;
 }

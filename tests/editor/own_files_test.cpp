@@ -162,6 +162,18 @@ TEST_CASE("a layer that another text in the folder names stays as long as that i
     garden.save();
     CHECK(fs::exists(older));
     fs::remove(garden.path + "/b");
+    // In a folder of the project's, behind many blanks, and with a letter that is written by its number.
+    std::string escaped = name;
+    char digits[8];
+    std::snprintf(digits, sizeof digits, "\\u%04x", unsigned(escaped[escaped.size() - 6]));
+    escaped.replace(escaped.size() - 6, 1, digits);
+    fs::create_directories(garden.path + "/scenes/old");
+    garden.folder.write("garden/scenes/old/c.json",
+                        std::string(5000, ' ') + "{\"layers\": {\"mask\": \"../../layers/" + escaped + "\"}}");
+    garden.fill(.75f);
+    garden.save();
+    CHECK(fs::exists(older));
+    fs::remove_all(garden.path + "/scenes");
     garden.fill(.8f);
     garden.save();
     CHECK_FALSE(fs::exists(older));

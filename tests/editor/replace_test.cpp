@@ -121,6 +121,8 @@ TEST_CASE("Ctrl+Shift+S saves elsewhere, and what is offered is free") {
     folder.write("v1.2", "");
     folder.write("v1.2-2", "");
     CHECK(sample::freeName(folder.file("v1.2")) == folder.file("v1.2-3"));
+    std::filesystem::create_symlink(folder.file("elsewhere"), folder.file("v1.2-3"));
+    CHECK(sample::freeName(folder.file("v1.2")) == folder.file("v1.2-4"));  // a link, too, be there nothing behind it
 }
 
 TEST_CASE("a picture is written over another only when that is confirmed") {

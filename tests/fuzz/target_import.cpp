@@ -1,7 +1,4 @@
 // In: bytes. Out: nothing, if all goes well; a model that is accepted must hold what it promises.
-#include <stdlib.h>
-
-#include "runtime/core/file.hpp"
 #include "tests/fuzz/promise.hpp"
 #include "tools/bake/import_kind.hpp"
 #include "tools/bake/import_model.hpp"
@@ -39,18 +36,17 @@ void importBytes(Bytes bytes, std::string_view ending) {
     check(importModel(file.path(), options));
 }
 
-// A model beside its materials. Lies in a folder of this process's own, which is left to the system.
+// A model beside its materials.
 std::string modelBeside(Bytes materials) {
-    static const std::string folder = [] {
-        std::string name = "/tmp/espalier-fuzz-XXXXXX";
-        if (!::mkdtemp(name.data())) std::abort();
-        constexpr std::string_view kModel =
-            "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n";
-        require(bool(writeFile(name + "/a.obj", kModel)), "the model can be written");
-        return name;
+    static const MemoryFolder memory;
+    static const bool set = [] {
+        memory.write("a.obj",
+                     "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\nf 1/1 2/2 3/3\n");
+        return true;
     }();
-    require(bool(writeFile(folder + "/a.mtl", std::as_bytes(materials))), "the materials can be written");
-    return folder + "/a.obj";
+    require(set, "the model is there");
+    memory.write("a.mtl", textOf(materials));
+    return memory.path / "a.obj";
 }
 
 }  // namespace

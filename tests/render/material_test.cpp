@@ -49,7 +49,8 @@ SurfaceData squares(const std::vector<Square>& all) {
 
 struct Seen {
     Look look{};
-    float from = 4;  // z of the eye
+    float from = 4;   // z of the eye
+    float aside = 0;  // and its x
 };
 
 // The picture's middle pixel, 0 to 255.
@@ -58,7 +59,7 @@ glm::ivec3 middle(const SurfaceData& surface, const Seen& seen = {}) {
     drawn.inputs.look = seen.look;
     drawn.inputs.look.shadows = false;
     drawn.inputs.look.sunDirection = {0.6f, 0.5f, seen.from > 0 ? 0.6f : -0.6f};
-    drawn.inputs.camera = {.eye = {0, 0.1f, seen.from}, .target = {0, 0.1f, 0}};
+    drawn.inputs.camera = {.eye = {seen.aside, 0.1f, seen.from}, .target = {0, 0.1f, 0}};
     REQUIRE(drawn.renderer().setSurface(0, surface, glm::mat4(1)));
     const std::vector<uint8_t> pixels = drawn.frame(64, 64);
     const size_t at = (32 * 64 + 32) * 4;
@@ -140,6 +141,15 @@ TEST_CASE("through glass one sees what lies behind, the nearer pane in front, fr
     clear.baseColor = {0.1f, 0.8f, 0.2f, 1};
     const glm::ivec3 tinted = middle(squares({{-1, white}, {0, clear}}));
     CHECK(tinted.g > tinted.r + 40);
+    // Where a blended picture has nothing no sky is mirrored, however aslant one looks.
+    Material decal = pane({1, 1, 1, 1});
+    decal.baseColorImage = 0;
+    decal.roughness = 0;
+    const Seen aslant{.from = 0.5f, .aside = 4};
+    const SurfaceData wall = squares({{-0.02f, white}});
+    const auto over = [&](uint8_t alpha) { return squares({{-0.02f, white}, {0, decal, {230, 10, 10, alpha}}}); };
+    CHECK(glm::length(glm::vec3(middle(over(0), aslant) - middle(wall, aslant))) < 3);
+    CHECK(glm::length(glm::vec3(middle(over(40), aslant) - middle(wall, aslant))) > 10);
     // Other views show what there is, glass or not.
     Seen normals;
     normals.look.view = ViewMode::normals;

@@ -67,12 +67,13 @@ TEST_CASE("a roof is as high as its tag says, also where it leaves no wall") {
 }
 
 TEST_CASE("a roof on posts has no walls, and stands on the ground") {
-    const GrownTown town =
-        grown(plan({box("canopy", 0, 12, 8, R"("building":"roof","height":"5","min_height":"4")"),
-                    box("carport", 20, 6, 4, R"("building":"carport")"),
-                    box("hall", 30, 12, 8, R"("building":"yes","wall":"no","height":5,"roof:shape":"gabled")"),
-                    box("barn", 50, 12, 8, R"("building":"roof","height":5,"min_height":"3.5","roof:shape":"gabled")"),
-                    box("house", 70, 6, 4, R"("building":"yes","walls":"yes")")}));
+    const GrownTown town = grown(
+        plan({box("canopy", 0, 12, 8, R"("building":"roof","height":"5","min_height":"4")"),
+              box("carport", 20, 6, 4, R"("building":"carport")"),
+              box("hall", 30, 12, 8, R"("building":"yes","wall":"no","height":5,"roof:shape":"gabled")"),
+              box("barn", 50, 12, 8, R"("building":"roof","height":5,"min_height":"3.5","roof:shape":"gabled")"),
+              box("house", 70, 6, 4, R"("building":"yes","walls":"yes")"),
+              box("stand", 80, 12, 8, R"("building:part":"roof","min_height":7,"height":9,"roof:shape":"skillion")")}));
     CHECK(town.house("canopy").open);
     CHECK(town.house("canopy").shape == RoofShape::flat);
     stands(town.house("canopy"), 0, 5, 5);
@@ -82,6 +83,8 @@ TEST_CASE("a roof on posts has no walls, and stands on the ground") {
     CHECK(town.house("hall").shape == RoofShape::gable);
     stands(town.house("barn"), 0, 3.5, 5);
     CHECK(!town.house("house").open);
+    // Of a part that is only a roof, too, nothing is left to hang in the air below it.
+    stands(town.house("stand"), 7, 7, 9);
     if (const auto report = grownReport("town_building_roof.geojson")) {
         CHECK(report->house("way/1").open);
         stands(report->house("way/1"), 0, 3.5, 5);
@@ -111,7 +114,8 @@ TEST_CASE("a wide hall of which nothing says what roof it has has a low one") {
     const GrownTown town = grown(
         plan({box("hall", 0, 60, 40, R"("building":"industrial")"), box("house", 70, 12, 9, R"("building":"yes")"),
               box("church", 90, 40, 20, R"("building":"church","roof:shape":"gabled")"),
-              box("tall", 140, 40, 20, R"("building":"yes","roof:angle":45)")}));
+              box("tall", 140, 40, 20, R"("building":"yes","roof:angle":45)"),
+              box("market", 190, 60, 60, R"("building":"retail","height":6)")}));
     const auto pitch = [&](const char* id) {
         for (const RoofFace& f : town.roofs.faces)
             if (town.roofs.houses[f.house].id == id && f.kind == FaceKind::slope)
@@ -122,4 +126,5 @@ TEST_CASE("a wide hall of which nothing says what roof it has has a low one") {
     CHECK(pitch("house") == doctest::Approx(35).epsilon(0.01));
     CHECK(pitch("church") == doctest::Approx(35).epsilon(0.01));
     CHECK(pitch("tall") == doctest::Approx(45).epsilon(0.01));
+    stands(town.house("market"), 0, 4, 6);
 }

@@ -43,9 +43,9 @@ TEST_CASE("what lies below the ground is no house, whatever layer a house is dra
          R"("building":"yes","building:levels":"0","building:levels:underground":"2")",
          R"("building":"yes","building:levels":"2","building:levels:underground":"1")",
          R"("building":"yes","layer":"1")", R"("building":"yes","layer":"-1","location":"overground")",
-         R"("building":"demolished")"}));
+         R"("building":"demolished")", R"("building":"parking","parking":"underground")"}));
     CHECK(town.ids() == "c d f g h ");
-    CHECK(town.says("4 features are no houses: left out (3 underground, 1 building=demolished)"));
+    CHECK(town.says("5 features are no houses: left out (4 underground, 1 building=demolished)"));
     if (const auto report = grownReport("town_below_ground.geojson")) CHECK(report->ids() == "way/1 ");
 }
 
@@ -101,6 +101,11 @@ TEST_CASE("closed ways that a program wrote as lines are outlines, points are co
         grown("{\"type\":\"FeatureCollection\",\"features\":[" + line + "," + open + "," + point + "]}");
     CHECK(town.ids() == "w ");
     CHECK(town.says("2 features are no houses: left out (1 LineString, 1 Point)"));
+    CHECK(
+        grown(
+            R"({"type":"FeatureCollection","features":[)" + line +
+            R"(,{"id":"x","type":"Feature","properties":{"building":"yes"},"geometry":{"type":"GeometryCollection","geometries":[]}}]})")
+            .says("x: is a GeometryCollection, not a Polygon"));
 }
 
 TEST_CASE("lengths as people write them") {
@@ -108,15 +113,16 @@ TEST_CASE("lengths as people write them") {
          {std::pair(R"("12")", 12.0), std::pair("12.5", 12.5), std::pair(R"("12,5")", 12.5),
           std::pair(R"("12 m")", 12.0), std::pair(R"("12m")", 12.0), std::pair(R"("40 ft")", 12.192),
           std::pair(R"("40'")", 12.192), std::pair(R"("12'6\"")", 3.81), std::pair(R"("12' 6\"")", 3.81),
-          std::pair(R"("12 ft 6 in")", 3.81), std::pair(R"("250 cm")", 2.5), std::pair(R"("12′6″")", 3.81),
-          std::pair(R"("40 feet")", 12.192), std::pair(R"("12 metres")", 12.0), std::pair(R"(" 12 ")", 12.0),
-          std::pair(R"("+12")", 12.0)}) {
+          std::pair(R"("12 ft 6 in")", 3.81), std::pair(R"("12'-6\"")", 3.81), std::pair(R"("250 cm")", 2.5),
+          std::pair(R"("12′6″")", 3.81), std::pair(R"("40 feet")", 12.192), std::pair(R"("12 metres")", 12.0),
+          std::pair(R"(" 12 ")", 12.0), std::pair(R"("+12")", 12.0)}) {
         INFO(text);
         const GrownTown town = grown(collection({std::string(R"("building":"yes","height":)") + text}));
         CHECK(town.town.footprints[0].height.value_or(0) == doctest::Approx(metres));
         CHECK(town.said.empty());
     }
-    for (const char* text : {R"("12 bananas")", R"("12'13\"")", R"("12'6")", R"("m")", R"("12;15")", R"("12m6\"")"}) {
+    for (const char* text :
+         {R"("12 bananas")", R"("12'13\"")", R"("12'6")", R"("m")", R"("12;15")", R"("12m6\"")", R"("10-12")"}) {
         INFO(text);
         CHECK(grown(collection({std::string(R"("building":"yes","height":)") + text})).says("height is not a number"));
     }

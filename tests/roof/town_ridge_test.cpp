@@ -46,6 +46,9 @@ TEST_CASE("roofs with gables fall to their direction") {
     CHECK(halfHip("S").to.y == doctest::Approx(4.5));
     CHECK(halfHip("W").from.x == doctest::Approx(4.5));
     CHECK(halfHip("W").to.x == doctest::Approx(4.5));
+    // Its hips leave a third of a short ridge.
+    CHECK(runs(ridgeOf(house(kLong, R"("roof:shape":"half-hipped","roof:direction":"E")")), {6, 2}, {6, 4}));
+    CHECK(runs(ridgeOf(house(kLong, R"("roof:shape":"half-hipped","roof:direction":"N")")), {1.5, 3}, {10.5, 3}));
 }
 
 TEST_CASE("a ridge lies along or across any outline") {
@@ -78,6 +81,8 @@ TEST_CASE("a ridge lies along or across any outline") {
     CHECK(!grown(house(kLong, R"("roof:shape":"hipped","roof:direction":"N")")).says("roof:direction"));
     CHECK(grown(house(kLong, R"("roof:shape":"pyramidal","roof:direction":"N")")).says("means nothing for this shape"));
     CHECK(grown(house(kSquare, R"("roof:shape":"gabled","roof:direction":"NE")"))
+              .says("lies between the directions of its walls"));
+    CHECK(grown(house(kSquare, R"("roof:shape":"skillion","roof:direction":"NE")"))
               .says("lies between the directions of its walls"));
 }
 

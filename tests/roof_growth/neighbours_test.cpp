@@ -129,6 +129,22 @@ TEST_CASE("a roof on posts has posts to the ground and no walls") {
     }
 }
 
+TEST_CASE("low walls have no door that reaches into the roof, and no pipes where there are none") {
+    for (const auto& [tags, eave] :
+         {std::pair(R"("height":8,"roof:shape":"hipped","roof:height":6)", 2.f),
+          std::pair(R"("building:part":"yes","min_height":10,"height":16,"roof:shape":"pyramidal","roof:height":6)",
+                    10.f),
+          std::pair(R"("height":7.3,"roof:shape":"gabled","roof:height":6)", 1.3f)}) {
+        for (int i = 0; i < 8; ++i) {  // of several lots
+            INFO(eave, i);
+            const Grown g = grown(box("low" + std::to_string(i), 13 * i, 0, 12, 8, tags));
+            g.eachGrid([&](const RoofGrid& grid, glm::vec3, glm::vec3 high) {
+                if (g.is(grid, {"door", "pipe"})) CHECK(high.y < eave + 0.05f);
+            });
+        }
+    }
+}
+
 TEST_CASE("roofs are the same to the bit kilometres away") {
     const std::string tags = R"("building:levels":2,"roof:shape":"hipped","roof:angle":41.3)";
     const auto at = [&](double x, double y) {

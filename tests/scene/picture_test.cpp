@@ -2,7 +2,9 @@
 // exception ends the program.
 #include "tools/scene/picture.hpp"
 
+#include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
+#include <stb_image_write.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -149,6 +151,8 @@ TEST_CASE("a size is judged from the header, before anything is decoded or alloc
     // So many texels don't fit into so few bytes.
     refusedBytes(folder, "thin.png", pngOf(8000, 8000), "bytes are too few for 8000 x 8000 texels");
     refusedBytes(folder, "thin.jpg", jpegOf(8000, 8000), "bytes are too few for 8000 x 8000 texels");
+    // All rows are stated, and none of them is there.
+    refusedBytes(folder, "thin.exr", exrOf(0, 8191) + std::string(8192 * 8, '\0'), "is damaged");
     // Each scan goes over all texels, though it takes ten bytes.
     refusedBytes(folder, "scans.jpg", jpegOf(8000, 8000, 5000), "in 5000 scans are too many to be decoded");
 }
@@ -207,6 +211,68 @@ TEST_CASE("a picture that is cut off or changed anywhere is read or refused, and
                 char(1 << (state & 7));
             tried(changed);
         }
+    }
+}
+
+TEST_CASE("a JPEG is read by every reader, and one that is cut off by none") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("a.jpg");
+    constexpr uint32_t kWidth = 64, kHeight = 32;
+    std::vector<uint8_t> texels(kWidth * kHeight * 3);
+    for (size_t i = 0; i < texels.size(); ++i) texels[i] = i % 3 == 0 ? 200 : i % 3 == 1 ? 100 : 50;
+    REQUIRE(stbi_write_jpg(path.c_str(), kWidth, kHeight, 3, texels.data(), 95));
+    std::string error, whole;
+    REQUIRE(readText(path, whole, error));
+    ColourPicture colour;
+    REQUIRE_MESSAGE(readColour(path, colour, error), error);
+    CHECK((colour.width == kWidth && colour.height == kHeight));
+    for (size_t i = 0; i < colour.rgba.size(); ++i)
+        REQUIRE(std::abs(colour.rgba[i] - (i % 4 == 3 ? 255 : texels[i % 4])) <= 2);
+    GreyPicture grey;
+    REQUIRE_MESSAGE(readGrey(path, grey, error), error);
+    CHECK(grey.texels.back() == doctest::Approx(200 / 255.f).epsilon(.02));
+    std::vector<GreyPicture> colours;
+    REQUIRE_MESSAGE(readColours(path, colours, error), error);
+    CHECK(colours[2].texels.back() == doctest::Approx(linearOf(50 / 255.f)).epsilon(.1));
+    FloatPicture floats;
+    REQUIRE_MESSAGE(readFloats(path, floats, error), error);
+    CHECK(floats.rgba[1] == doctest::Approx(100 / 255.f).epsilon(.02));
+    PictureShape shape;
+    REQUIRE_MESSAGE(readShape(path, shape, error), error);
+    CHECK(shape.channels == 3);
+    const auto all = std::as_bytes(std::span(whole));
+    CHECK(decodePicture(all, path));
+    for (const size_t left : {whole.size() - 20, whole.size() - 60})
+        refusedBytes(folder, "cut.jpg", whole.substr(0, left), "is damaged: it is cut off");
+}
+
+TEST_CASE("an OpenEXR of tiles, wherever its window lies, is read as one of rows") {
+    const ScratchFolder folder;
+    constexpr int kWidth = 40, kHeight = 600;  // rows are read in several steps
+    std::vector<float> texels(size_t(kWidth) * kHeight * 3);
+    for (size_t i = 0; i < texels.size(); ++i) texels[i] = float(i) / float(texels.size());
+    for (const int tile : {0, 16, 64}) {
+        CAPTURE(tile);
+        const std::string path = folder.file("a.exr");
+        OIIO::ImageSpec spec(kWidth, kHeight, 3, OIIO::TypeDesc::FLOAT);
+        spec.x = -5, spec.y = 7;
+        spec.tile_width = spec.tile_height = tile;
+        spec.tile_depth = 1;
+        const auto output = OIIO::ImageOutput::create("openexr");
+        REQUIRE(output->open(path, spec));
+        REQUIRE(output->write_image(OIIO::TypeDesc::FLOAT, texels.data()));
+        REQUIRE(output->close());
+        std::string error;
+        FloatPicture floats;
+        REQUIRE_MESSAGE(readFloats(path, floats, error), error);
+        REQUIRE(floats.rgba.size() == size_t(kWidth) * kHeight * 4);
+        size_t unlike = 0;
+        for (size_t i = 0; i < floats.rgba.size(); ++i)
+            unlike += floats.rgba[i] != (i % 4 == 3 ? 1 : texels[i / 4 * 3 + i % 4]);
+        CHECK(unlike == 0);
+        GreyPicture grey;
+        REQUIRE_MESSAGE(readGrey(path, grey, error), error);
+        CHECK(grey.texels.back() == texels[texels.size() - 3]);
     }
 }
 

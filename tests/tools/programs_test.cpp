@@ -320,7 +320,9 @@ TEST_CASE("a picture of another format, or one that states too much, is refused 
         refuses(capture + content("ruin.surface.glb") + " --grammar " + content("grammars/ivy_guided.grammar") +
                     " --layer mask=" + bad + out,
                 folder, {"bad.png: ", cause});
-        folder.write("sited.json", R"({"surface": ")" + content("ruin.surface.glb") + R"(", "site": "site.json"})");
+        folder.write("sited.json", R"({"surface": ")" + content("ruin.surface.glb") +
+                                       R"(", "site": "site.json", "grammars": [{"file": ")" +
+                                       content("grammars/ivy_free.grammar") + R"("}]})");
         refuses(capture + folder.file("sited.json") + out, folder, {"bad.png: ", cause});
         refuses(program("espalier-bake") + " -q " + content("ruin.glb") + " --resolution 64 --weights " + bad + " -o " +
                     folder.file("x.glb"),
@@ -332,9 +334,12 @@ TEST_CASE("a comparison keeps to its tolerance to the last step, of alpha too, a
     const Folder folder;
     const std::string compare = program("espalier-compare") + " --share 1 ";
     const auto grey = [&](const char* name, int value) {
-        return folder.write(name, "P5 4 4 255\n" + std::string(16, char(value))) + " ";
+        std::string error;
+        const std::vector<uint8_t> rgba(64, uint8_t(value));
+        REQUIRE_MESSAGE(espalier::scene::writePng(folder.file(name), rgba.data(), 4, 4, error), error);
+        return folder.file(name) + " ";
     };
-    const std::string a = grey("a.pgm", 100), near = grey("near.pgm", 105), far = grey("far.pgm", 106);
+    const std::string a = grey("a.png", 100), near = grey("near.png", 105), far = grey("far.png", 106);
     CHECK(run(compare + a + near).code == 0);
     CHECK(run(compare + a + far).code == 1);
     CHECK(run(compare + a + far + "--tolerance 6").code == 0);
@@ -366,14 +371,16 @@ TEST_CASE("a comparison keeps to its tolerance to the last step, of alpha too, a
 
 TEST_CASE("what is written is whole, what a link leads to, and no device is replaced") {
     const Folder folder;
-    std::string noise = "P6 600 600 255\n", other = noise;
     std::mt19937 random(1);
-    for (int i = 0; i < 600 * 600 * 3; ++i) {
-        noise += char(random());
-        other += char(random());
-    }
-    const std::string compare = program("espalier-compare") + " " + folder.write("a.ppm", noise) + " " +
-                                folder.write("b.ppm", other) + " --diff ";
+    const auto noise = [&](const char* name) {
+        std::vector<uint8_t> rgba(600 * 600 * 4);
+        for (uint8_t& value : rgba) value = uint8_t(random());
+        std::string error;
+        REQUIRE_MESSAGE(espalier::scene::writePng(folder.file(name), rgba.data(), 600, 600, error), error);
+        return folder.file(name) + " ";
+    };
+    const std::string a = noise("a.png"), b = noise("b.png");
+    const std::string compare = program("espalier-compare") + " " + a + b + "--diff ";
     const std::string diff = folder.write("diff.png", "what was there");
     const size_t files = folder.count();
     CHECK(run(compare + folder.file("diff.jpg")).code == 2);

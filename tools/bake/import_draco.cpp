@@ -83,7 +83,7 @@ draco::StatusOr<std::unique_ptr<draco::Mesh>> decode(draco::DecoderBuffer* buffe
 }  // namespace
 
 Status readDraco(const Document& document, const tinygltf::Primitive& primitive, const PrimitiveRequest& request,
-                 const std::string& place, Primitive& out) {
+                 const std::string& place, Primitive& out, std::vector<std::string>& remarks) {
     const tinygltf::Value& extension = primitive.extensions.at("KHR_draco_mesh_compression");
     if (!extension.IsObject() || !extension.Get("bufferView").IsInt() || !extension.Get("attributes").IsObject())
         return Failure(document.path, place + ": KHR_draco_mesh_compression is incomplete");
@@ -107,7 +107,10 @@ Status readDraco(const Document& document, const tinygltf::Primitive& primitive,
         if (!id.IsInt()) continue;
         Status read = readAttribute(document, mesh, id.Get<int>(), accessorOf(document, primitive, w.name), w,
                                     place + "." + w.name);
-        if (!read) return read;
+        if (!read && w.into == &out.positions) return read;
+        if (read) continue;
+        w.into->clear();
+        remarks.push_back(leftOut(w, read.failure()));
     }
     out.indices.resize(size_t(mesh.num_faces()) * 3);
     for (uint32_t f = 0; f < mesh.num_faces(); ++f)

@@ -67,7 +67,7 @@ struct PrimitiveRequest {
     int walkUv = 0, drawnUv = 0, otherUv = -1;
     bool joints = false;
     std::vector<double> morph;
-    int colour = 0;  // how many components COLOR_0 has; 0: it isn't read
+    int colour = 0;  // how many components COLOR_0 has; 0: there is none
 };
 // What a request for a primitive's colours has to say.
 int colourComponents(const Document& document, const tinygltf::Primitive& primitive);
@@ -81,9 +81,9 @@ Result<Primitive> readPrimitive(const Document& document, const tinygltf::Primit
 // The accessor of a primitive's indices; -1: none, or Draco's. openDocument has put it into the extras.
 int indicesOf(const tinygltf::Primitive& primitive);
 
-// Fills in what of the request KHR_draco_mesh_compression packs.
+// Fills in what of the request KHR_draco_mesh_compression packs. Remarks tell of attributes that it can do without.
 Status readDraco(const Document& document, const tinygltf::Primitive& primitive, const PrimitiveRequest& request,
-                 const std::string& place, Primitive& out);
+                 const std::string& place, Primitive& out, std::vector<std::string>& remarks);
 
 // A vertex attribute that may be read, and where it goes.
 struct Attribute {
@@ -92,6 +92,7 @@ struct Attribute {
     std::vector<float>* into;
 };
 std::vector<Attribute> attributesOf(const PrimitiveRequest& request, Primitive& out);
+std::string leftOut(const Attribute& attribute, const Failure& why);  // a remark
 
 // Adds morph targets to positions and normals by their weights; changes nothing where it fails.
 Status applyMorphs(const Document& document, const tinygltf::Primitive& from, const std::vector<double>& weights,

@@ -112,9 +112,10 @@ const FileKind* kindOf(Bytes file) {
     std::string_view head = withoutByteOrderMark(text).substr(0, 65536);
     head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
     if (head.starts_with("<")) return kindOfXml(head);
-    if (head.starts_with("solid") && (head.find("facet") != head.npos || head.find("endsolid") != head.npos))
-        return &kStl;
-    return nullptr;
+    const std::string small = smallLetters(head);
+    const bool stl =
+        small.starts_with("solid") && (small.find("facet") != small.npos || small.find("endsolid") != small.npos);
+    return stl ? &kStl : nullptr;
 }
 
 bool looksLikeObj(Bytes file) {

@@ -4,6 +4,7 @@
 #include "tools/bake/import.hpp"
 #include "tools/bake/import_foreign.hpp"
 #include "tools/bake/import_kind.hpp"
+#include "tools/bake/import_text.hpp"
 
 namespace espalier {
 namespace {
@@ -16,12 +17,14 @@ bool startsWith(Bytes file, std::string_view text) {
 
 // The ending in small letters, without that of the compression.
 std::string endingOf(std::filesystem::path path) {
-    auto small = [](std::string text) {
-        for (char& c : text) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-        return text;
-    };
-    if (small(path.extension().string()) == ".gz") path = path.stem();
-    return small(path.extension().string());
+    if (smallLetters(path.extension().string()) == ".gz") path = path.stem();
+    return smallLetters(path.extension().string());
+}
+
+// Some editors put a byte order mark in front of any text.
+Bytes withoutMark(Bytes file) {
+    const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    return file.last(withoutByteOrderMark(text).size());
 }
 
 bool isPly(Bytes file) {
@@ -42,7 +45,7 @@ Status importAs(const std::string& ending, const std::string& path, Bytes file, 
 Status importAny(const std::string& path, Bytes file, const ImportOptions& options, Intake& intake, Model& model) {
     if (!options.as.empty()) return importAs(options.as, path, file, options, intake, model);
     const auto as = [&](const std::string& ending) { return importAs(ending, path, file, options, intake, model); };
-    if (isPly(file)) return as(".ply");
+    if (const Bytes text = withoutMark(file); isPly(text)) return importAs(".ply", path, text, options, intake, model);
     if (const FileKind* kind = kindOf(file)) {
         if (kind->reader == ReadBy::stl) return as(".stl");
         if (kind->reader == ReadBy::assimp) return importForeign(path, file, *kind, options, intake, model);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tools/bake/import_kind.hpp"
 #include "tools/bake/import_mtl_picture.hpp"
 #include "tools/bake/import_text.hpp"
 
@@ -13,12 +14,6 @@ namespace {
 constexpr size_t kMostReadings = 8;  // of a name
 constexpr size_t kMostPictures = 4096;
 constexpr double kMostEmission = 1000;  // of a light's colour
-
-std::string smallLetters(std::string_view text) {
-    std::string out(text);
-    for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
-    return out;
-}
 
 std::string_view withoutQuotes(std::string_view text) {
     const bool quoted = text.size() > 1 && text.front() == '"' && text.back() == '"';
@@ -107,6 +102,8 @@ class MaterialLibrary::File {
         auto text = to_.intake_.readBeside(to_.path_, name_);
         if (!text) return to_.warn(line, "materials left out: " + text.failure().diagnostics.front().message);
         std::string_view all(reinterpret_cast<const char*>(text->data()), text->size());
+        if (const FileKind* kind = all.empty() ? nullptr : kindOf(*text))
+            return to_.warn(line, "materials left out: '" + name_ + "' is " + kind->name);
         (void)eachLine(all, [&](std::string_view statement, int number) -> Status {
             read(statement, number);
             return Done{};

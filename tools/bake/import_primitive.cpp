@@ -24,13 +24,16 @@ std::vector<uint32_t> toList(const std::vector<uint32_t>& in, int mode) {
 }
 
 Status readPlain(const Document& document, const tinygltf::Primitive& from, const PrimitiveRequest& request,
-                 Primitive& out) {
+                 Primitive& out, std::vector<std::string>& remarks) {
     for (const Attribute& a : attributesOf(request, out)) {
         auto it = from.attributes.find(a.name);
         if (it == from.attributes.end()) continue;
         auto read = readFloats(document, it->second, a.components, a.name.c_str());
-        if (!read) return std::move(read.failure());
-        *a.into = std::move(*read);
+        if (!read && a.into == &out.positions) return std::move(read.failure());
+        if (read)
+            *a.into = std::move(*read);
+        else
+            remarks.push_back(leftOut(a, read.failure()));
     }
     if (const int indices = indicesOf(from); indices >= 0) {
         auto read = readIndices(document, indices);
@@ -74,10 +77,24 @@ std::vector<std::string> judgeAttributes(const PrimitiveRequest& request, Primit
     }
     for (size_t set = 0; set < kJointSets; ++set)
         if (out.joints[set].empty() || out.weights[set].empty()) out.joints[set].clear(), out.weights[set].clear();
-    const auto broken =
-        std::count_if(out.normals.begin(), out.normals.end(), [](float x) { return !std::isfinite(x); });
-    if (broken > 0) remarks.push_back("normals that are not numbers are made from the triangles");
+    const auto tellOf = [&](const std::vector<float>& values, const std::string& text) {
+        if (!std::ranges::all_of(values, [](float x) { return std::isfinite(x); })) remarks.push_back(text);
+    };
+    tellOf(out.normals, "normals that are not numbers are made from the triangles");
+    tellOf(out.colours, "colours that are not numbers count as white");
+    for (const auto* uvs : {&out.walkUvs, &out.drawnUvs, &out.otherUvs})
+        tellOf(*uvs, "UVs that are not numbers count as none");
     return remarks;
+}
+
+// Colours are shares of one. Some writers forget to say so of integers.
+bool judgeColours(const Document& document, const tinygltf::Primitive& from, Primitive& out) {
+    const size_t index = out.colours.empty() ? SIZE_MAX : size_t(from.attributes.at("COLOR_0"));
+    if (index >= document.gltf.accessors.size()) return true;
+    const tinygltf::Accessor& accessor = document.gltf.accessors[index];
+    if (accessor.normalized || !isInteger(accessor.componentType)) return true;
+    for (float& x : out.colours) x = float(double(x) / normalizedOne(accessor.componentType));
+    return false;
 }
 
 }  // namespace
@@ -89,9 +106,13 @@ int indicesOf(const tinygltf::Primitive& primitive) {
 
 int colourComponents(const Document& document, const tinygltf::Primitive& primitive) {
     auto it = primitive.attributes.find("COLOR_0");
-    if (it == primitive.attributes.end() || size_t(it->second) >= document.gltf.accessors.size()) return 0;
-    const int type = document.gltf.accessors[size_t(it->second)].type;
-    return type == TINYGLTF_TYPE_VEC3 ? 3 : type == TINYGLTF_TYPE_VEC4 ? 4 : 0;
+    if (it == primitive.attributes.end()) return 0;
+    const bool exists = size_t(it->second) < document.gltf.accessors.size();
+    return exists && document.gltf.accessors[size_t(it->second)].type == TINYGLTF_TYPE_VEC3 ? 3 : 4;
+}
+
+std::string leftOut(const Attribute& attribute, const Failure& why) {
+    return attribute.name + " is left out: " + why.diagnostics.front().message;
 }
 
 std::vector<Attribute> attributesOf(const PrimitiveRequest& request, Primitive& out) {
@@ -113,13 +134,17 @@ std::vector<Attribute> attributesOf(const PrimitiveRequest& request, Primitive& 
 Result<Primitive> readPrimitive(const Document& document, const tinygltf::Primitive& primitive,
                                 const PrimitiveRequest& request, const std::string& place,
                                 std::vector<Diagnostic>& warnings) {
-    const auto warn = [&](std::string text) {
-        warnings.push_back({document.path, 0, 0, {}, place + ": " + std::move(text), true});
+    std::vector<std::string> remarks;
+    const auto warn = [&](const std::string& text) {  // once, though the materials may share the walk's UVs
+        if (std::ranges::find(remarks, text) != remarks.end()) return;
+        remarks.push_back(text);
+        warnings.push_back({document.path, 0, 0, {}, place + ": " + text, true});
     };
     Primitive out;
+    std::vector<std::string> unread;
     const bool packed = primitive.extensions.count("KHR_draco_mesh_compression") != 0;
-    Status read =
-        packed ? readDraco(document, primitive, request, place, out) : readPlain(document, primitive, request, out);
+    Status read = packed ? readDraco(document, primitive, request, place, out, unread)
+                         : readPlain(document, primitive, request, out, unread);
     if (!read) return std::move(read.failure());
     if (out.indices.empty()) return Primitive();
     const size_t count = out.positions.size() / 3;
@@ -127,7 +152,10 @@ Result<Primitive> readPrimitive(const Document& document, const tinygltf::Primit
         if (i >= count)
             return Failure(document.path,
                            place + ": index " + std::to_string(i) + " of " + std::to_string(count) + " vertices");
+    for (const std::string& remark : unread) warn(remark);
     for (const std::string& remark : judgeAttributes(request, out)) warn(remark);
+    if (!judgeColours(document, primitive, out))
+        warn("COLOR_0 holds integers that aren't normalized: taken as if they were");
     if (request.joints && primitive.attributes.count("JOINTS_" + std::to_string(kJointSets)))
         warn("only JOINTS_0 and JOINTS_1 are read: a vertex follows eight joints at most");
     if (!request.morph.empty() && !primitive.targets.empty()) {

@@ -61,6 +61,7 @@ class Importer {
         if (model_.indices.empty()) return Failure(document_.path, "the file holds no triangles" + whyNone());
         settle(places_, model_.indices, options_.origin, model_);
         model_.colours.resize(anyColours_ ? places_.size() : 0, glm::vec4(1));
+        blendByColours();
         if (!anyUvs_) model_.uvs.clear();
         if (!anyUvs_) model_.materialUvs.clear();
         if (!anyOtherUvs_) model_.otherUvs.clear();
@@ -192,8 +193,8 @@ class Importer {
         return Done{};
     }
 
-    using PrimitiveId = std::pair<int, size_t>;                       // mesh, primitive
-    using Kept = std::tuple<PrimitiveId, bool, std::vector<double>>;  // with its skin's joints, morphed by weights
+    using PrimitiveId = std::pair<int, size_t>;                         // mesh, primitive
+    using Kept = std::tuple<PrimitiveId, size_t, std::vector<double>>;  // for so many joints, morphed by weights
 
     Status add(const tinygltf::Primitive& from, const Placement& at, const std::vector<double>& weights,
                PrimitiveId id) {
@@ -215,7 +216,7 @@ class Importer {
             material = 0;
         }
         // What is placed once is not kept.
-        const Kept key{id, !at.joints.empty(), weights};
+        const Kept key{id, at.joints.size(), weights};
         auto known = kept_.find(key);
         Primitive once;
         if (known == kept_.end()) {
@@ -307,6 +308,17 @@ class Importer {
         if (transform.other >= 0 && !other.empty()) anyOtherUvs_ = true;
         if (from.normals.empty()) allNormals_ = false;
         return volumes;
+    }
+
+    // Colours of vertices may be what lets something be seen through a material.
+    void blendByColours() {
+        for (size_t i = 0; i < model_.indices.size() && anyColours_; ++i) {
+            const uint32_t material = model_.triangleMaterial[i / 3];
+            Material& m = model_.materials[material];
+            if (m.blended || !(model_.colours[model_.indices[i]].a < 1)) continue;
+            const auto& all = document_.gltf.materials;
+            if (material < all.size() && all[material].alphaMode == "BLEND") m.bare = m.blended = true;
+        }
     }
 
     // Vertices of primitives without colours are white, as are those whose colours are not numbers.

@@ -44,7 +44,7 @@ Status readText(const std::string& path, std::string_view text, std::vector<glm:
         ofLoop = 0;
     };
     Status read = eachLine(text, [&](std::string_view line, int number) -> Status {
-        const std::string_view key = nextWord(line);
+        const std::string key = smallLetters(nextWord(line));
         if (key == "outer" || key == "endloop") endLoop(number);
         if (key != "vertex") return Done{};
         if (ofLoop == 3) return Failure(Diagnostic{path, number, 0, {}, "a facet of more than 3 corners"});

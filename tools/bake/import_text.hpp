@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -43,6 +44,12 @@ inline std::string_view nextLine(std::string_view& text) {
     return line;
 }
 
+inline std::string smallLetters(std::string_view text) {
+    std::string out(text);
+    for (char& c : out) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    return out;
+}
+
 // Text editors of Windows put a mark in front that tells the encoding.
 inline std::string_view withoutByteOrderMark(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
@@ -80,9 +87,14 @@ Status eachLine(std::string_view text, Statement&& statement) {
     return Done{};
 }
 
-// The whole word as a number; false for everything else. Numbers too small for a double are 0.
+// The whole word as a number; false for everything else. Numbers too small for a double are 0; what programs of Windows
+// write for none, such as "-1.#IND", is one that is not a number.
 inline bool toNumber(std::string_view word, double& value) {
     if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+    if (word.starts_with("1.#") || word.starts_with("-1.#")) {
+        value = std::numeric_limits<double>::quiet_NaN();
+        return true;
+    }
     auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error == std::errc::result_out_of_range && word.find("e-") != word.npos) value = 0, error = {};
     return error == std::errc() && end == word.data() + word.size();

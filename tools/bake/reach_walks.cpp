@@ -44,13 +44,10 @@ class Borders {
         DisjointSets pieces(mesh.triangles.size());
         std::vector<Box> boxes;
         for (size_t i = 0, j = 0; i < halves.size(); i = j) {
-            bool bare = false, ground = false;
-            for (; j < halves.size() && halves[j].key == halves[i].key; ++j) {
+            for (; j < halves.size() && halves[j].key == halves[i].key; ++j)
                 pieces.join(halves[j].half / 3, halves[i].half / 3);
-                (mesh.triangles[halves[j].half / 3].bare ? bare : ground) = true;
-            }
-            if (j - i > 1 && !(bare && ground)) continue;
-            borders_.push_back({halves[i].half, bare && ground});
+            if (j - i > 1) continue;
+            borders_.push_back(halves[i].half);
             boxes.emplace_back();
             for (glm::dvec3 p : {mesh.pointAt(halves[i].half), mesh.pointAt(BakeMesh::next(halves[i].half))})
                 boxes.back().add(p);
@@ -63,27 +60,26 @@ class Borders {
         triangleTree_ = BoxTree(std::move(triangles), {});
     }
 
-    // Is one of them near? Where another piece touches, the model goes on; beside that it may not.
+    // Is one of them near, or bare ground, which is one? Where another piece touches, the model goes on; beside that it
+    // may not.
     bool near(glm::dvec3 p) const {
         Box around;
         around.add(p);
+        const Box within = around.grown(within_);
         bool found = false;
-        borderTree_.near(around.grown(within_), [&](uint32_t i) { found = found || endsNear(borders_[i], p); });
+        borderTree_.near(within, [&](uint32_t i) { found = found || endsNear(borders_[i], p); });
+        triangleTree_.near(
+            within, [&](uint32_t t) { found = found || (mesh_.triangles[t].bare && distance(p, t) <= within_); });
         return found;
     }
 
   private:
-    struct Border {
-        uint32_t half;
-        bool bare;
-    };
-
-    bool endsNear(const Border& border, glm::dvec3 p) const {
-        const glm::dvec3 a = mesh_.pointAt(border.half), d = mesh_.pointAt(BakeMesh::next(border.half)) - a;
+    bool endsNear(uint32_t half, glm::dvec3 p) const {
+        const glm::dvec3 a = mesh_.pointAt(half), d = mesh_.pointAt(BakeMesh::next(half)) - a;
         const double length = glm::length(d), foot = glm::dot(p - a, d) / length;
         for (double beside : kBeside) {
             const glm::dvec3 at = a + d * (std::clamp(foot + beside * within_, 0.0, length) / length);
-            if (glm::length(p - at) <= within_ && (border.bare || !goesOn(at, piece_[border.half / 3]))) return true;
+            if (glm::length(p - at) <= within_ && !goesOn(at, piece_[half / 3])) return true;
         }
         return false;
     }
@@ -106,8 +102,8 @@ class Borders {
 
     const BakeMesh& mesh_;
     double within_;
-    std::vector<uint32_t> piece_;  // of each triangle: what edges join
-    std::vector<Border> borders_;
+    std::vector<uint32_t> piece_;    // of each triangle: what edges join
+    std::vector<uint32_t> borders_;  // half-edges
     BoxTree borderTree_, triangleTree_;
 };
 

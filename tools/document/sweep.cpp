@@ -1,10 +1,10 @@
 // What no text names any more, by the hashes in files' names.
 #include "tools/document/sweep.hpp"
 
+#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <optional>
 #include <set>
 #include <string_view>
 
@@ -32,44 +32,71 @@ bool named(const fs::path& file) {
            hash.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
+// Cuts the first character off a text; JSON may write any by its number, as in "\\u0061".
+char takeCharacter(std::string_view& text) {
+    uint8_t number = 0;
+    const std::string_view escape = text.substr(0, 6);
+    const bool whole = escape.size() == 6 && escape.starts_with("\\u00") &&
+                       std::from_chars(escape.data() + 4, escape.data() + 6, number, 16).ptr == escape.data() + 6;
+    const char c = whole ? char(number) : text.front();
+    text.remove_prefix(whole ? 6 : 1);
+    return c;
+}
+
 // What may be the hash in a file's name: the last digits of each row of them.
 void addHashes(std::string_view text, Hashes& out) {
     const auto isDigit = [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); };
-    for (size_t at = 0, digits = 0; at <= text.size(); ++at) {
-        const bool digit = at < text.size() && isDigit(text[at]);
-        if (!digit && digits >= kHashDigits) out.emplace(text.substr(at - kHashDigits, kHashDigits));
-        digits = digit ? digits + 1 : 0;
+    std::string row;
+    while (!text.empty() || !row.empty()) {
+        const char c = text.empty() ? '\0' : takeCharacter(text);
+        if (isDigit(c)) {
+            row += c;
+            continue;
+        }
+        if (row.size() >= kHashDigits) out.insert(row.substr(row.size() - kHashDigits));
+        row.clear();
     }
 }
 
 // Of a file that begins with a brace, as scenes, projects and runs do, all; of others nothing. False: it can't be read.
 bool readDescription(const std::string& path, std::string& text) {
     constexpr uint64_t kMost = uint64_t(1) << 28;
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    constexpr std::string_view kBlanks = " \t\r\n", kByteOrderMark = "\xEF\xBB\xBF";
     std::ifstream file(path, std::ios::binary);
-    std::string begin(1024, 0), error;
+    std::string begin(kByteOrderMark.size(), 0), error;
+    if (!file) return false;
     file.read(begin.data(), std::streamsize(begin.size()));
-    begin.resize(size_t(file.gcount()));
+    if (begin != kByteOrderMark) file.clear(), file.seekg(0);
+    char first = 0;
+    while (file.get(first) && kBlanks.find(first) != kBlanks.npos) {
+    }
     text.clear();
-    if (file.bad() || (!file.eof() && file.fail())) return false;
-    const size_t mark = begin.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
-    const size_t first = begin.find_first_not_of(" \t\r\n", mark);
-    if (first == std::string::npos || begin[first] != '{') return true;
-    return scene::readText(path, text, error, kMost);
+    if (!file) return file.eof();
+    return first != '{' || scene::readText(path, text, error, kMost);
 }
 
-// The hashes that any text in the folder names: who has a copy of an older project.json, or a scene or a run that uses
-// a layer of this project, keeps it. Nothing: a text can't be read, and who knows what it names.
-std::optional<Hashes> hashesIn(const Folder& home) {
-    Hashes all;
+// The hashes that any text in the folder, or in a folder in it, names: who has a copy of an older project.json, or a
+// scene or a run that uses a layer of this project, keeps it. False: a text can't be read or there are more folders
+// than anybody has there, and who knows what they name.
+bool addHashesIn(const Folder& home, int depth, size_t& texts, Hashes& all) {
+    constexpr int kMostDepth = 8;
+    constexpr size_t kMostTexts = 100000;
+    if (depth > kMostDepth) return false;
     for (const std::string& name : home.names()) {
+        const std::string path = home.pathOf(name);
         std::error_code ignored;
-        std::string text;
-        if (!fs::is_regular_file(home.pathOf(name), ignored)) continue;
-        if (!readDescription(home.pathOf(name), text)) return std::nullopt;
-        addHashes(text, all);
+        std::string text, none;
+        if (++texts > kMostTexts) return false;
+        if (fs::is_directory(fs::symlink_status(path, ignored))) {
+            if (name.front() == '.') continue;  // those of other programs
+            const Folder inner = home.in(name, false, none);
+            if (!inner || !addHashesIn(inner, depth + 1, texts, all)) return false;
+        } else if (fs::is_regular_file(path, ignored)) {
+            if (!readDescription(path, text)) return false;
+            addHashes(text, all);
+        }
     }
-    return all;
+    return true;
 }
 
 template <class F>
@@ -81,15 +108,16 @@ void clear(const Folder& folder, F&& unwanted) {
 }  // namespace
 
 void sweepProject(const Folder& home, const std::vector<std::string>& kept) {
-    std::optional<Hashes> wanted = hashesIn(home);
-    if (!wanted) return;
-    for (const std::string& file : kept) addHashes(file, *wanted);
+    Hashes wanted;
+    size_t texts = 0;
+    if (!addHashesIn(home, 0, texts, wanted)) return;
+    for (const std::string& file : kept) addHashes(file, wanted);
     clear(home, [](const std::string&) { return false; });
     for (const char* place : {kLayers, kPlants, kSurfaces}) {
         std::string none;
         const Folder folder = home.in(place, false, none);
         if (!folder) continue;
-        clear(folder, [&](const fs::path& file) { return named(file) && !wanted->contains(hashOf(file)); });
+        clear(folder, [&](const fs::path& file) { return named(file) && !wanted.contains(hashOf(file)); });
         home.removeFolder(place);  // if nothing is in it
     }
 }

@@ -25,12 +25,11 @@ constexpr uint64_t kMaxSide = 8192, kMaxFrameSide = 16384;  // of layers; of pic
 constexpr uint64_t kMostBytes = uint64_t(1) << 31;  // of a file
 constexpr uint64_t kMostWork = uint64_t(1) << 33;   // texels over all scans
 
-// A file in memory. The library's own reader of memory believes any offset that a file states.
-class Memory : public OIIO::Filesystem::IOProxy {
+// A file in memory. The library's own reader of memory believes any offset that a file states, but its reader of JPEG
+// takes no other.
+class Memory : public OIIO::Filesystem::IOMemReader {
   public:
-    explicit Memory(const std::string& bytes) : IOProxy("", Read), bytes_(bytes) {}
-    const char* proxytype() const override { return "memory"; }
-    size_t size() const override { return bytes_.size(); }
+    explicit Memory(const std::string& bytes) : IOMemReader(bytes.data(), bytes.size()), bytes_(bytes) {}
     size_t read(void* out, size_t size) override {
         const size_t got = pread(out, size, m_pos);
         m_pos += int64_t(got);
@@ -121,24 +120,44 @@ bool limit(const std::string& path, std::vector<float>& texels, uint64_t& limite
     return true;
 }
 
-// The first `channels` of a picture that is open, or as many as it has.
+// Rows from y to end, counted from the picture's first, of the first `channels`.
+bool readRows(Source& source, int y, int end, int channels, OIIO::TypeDesc type, void* out, OIIO::stride_t step) {
+    const OIIO::ImageSpec& s = source.spec();
+    return s.tile_width > 0 ? source.input->read_tiles(0, 0, s.x, s.x + s.width, s.y + y, s.y + end, s.z, s.z + 1, 0,
+                                                       channels, type, out, step)
+                            : source.input->read_scanlines(0, 0, s.y + y, s.y + end, s.z, 0, channels, type, out, step);
+}
+
+// The first `channels` of a picture that is open, or as many as it has; of what it hasn't got, `missing`. Room is made
+// only as rows are there: a header may state many that never come.
 template <class T>
-bool readTexels(const std::string& path, Source& source, int channels, OIIO::TypeDesc type, std::vector<T>& texels,
-                std::string& error) {
+bool readTexels(const std::string& path, Source& source, int channels, OIIO::TypeDesc type, T missing,
+                std::vector<T>& texels, std::string& error) {
+    constexpr int kRows = 256;  // that some compressions pack together
     const OIIO::ImageSpec& spec = source.spec();
-    const int read = std::min(channels, spec.nchannels);
+    const int read = std::min(channels, spec.nchannels), rows = spec.tile_width > 0 ? spec.tile_height : kRows;
     const auto step = OIIO::stride_t(channels * sizeof(T));
     // As they are stored first, where all channels are alike: asked to convert them, the library takes 64 MB for any
     // picture.
     const bool alike = spec.channelformats.empty();
-    std::vector<uint8_t> stored(alike ? size_t(spec.width) * size_t(spec.height) * size_t(read) * spec.format.size()
-                                      : 0);
-    const bool whole = alike ? source.input->read_image(0, 0, 0, read, OIIO::TypeDesc::UNKNOWN, stored.data())
-                             : source.input->read_image(0, 0, 0, read, type, texels.data(), step);
-    if (!whole) return damaged(path, source.input->geterror(), error);
-    return !alike || OIIO::convert_image(read, spec.width, spec.height, 1, stored.data(), spec.format, OIIO::AutoStride,
-                                         OIIO::AutoStride, OIIO::AutoStride, texels.data(), type, step,
-                                         OIIO::AutoStride, OIIO::AutoStride);
+    const size_t inRow = size_t(spec.width) * size_t(channels);
+    std::vector<uint8_t> stored;
+    texels.clear();
+    texels.reserve(inRow * size_t(spec.height));
+    for (int y = 0; y < spec.height; y += rows) {
+        const int end = std::min(y + rows, spec.height);
+        stored.resize(alike ? size_t(spec.width) * size_t(end - y) * size_t(read) * spec.format.size() : 0);
+        texels.resize(inRow * size_t(end), missing);
+        T* to = texels.data() + inRow * size_t(y);
+        if (!(alike ? readRows(source, y, end, read, OIIO::TypeDesc::UNKNOWN, stored.data(), OIIO::AutoStride)
+                    : readRows(source, y, end, read, type, to, step)))
+            return damaged(path, source.input->geterror(), error);
+        if (alike && !OIIO::convert_image(read, spec.width, end - y, 1, stored.data(), spec.format, OIIO::AutoStride,
+                                          OIIO::AutoStride, OIIO::AutoStride, to, type, step, OIIO::AutoStride,
+                                          OIIO::AutoStride))
+            return damaged(path, "its texels are of an unknown kind", error);
+    }
+    return true;
 }
 
 // Red, green, blue and alpha; of a grey picture thrice its grey.
@@ -148,8 +167,7 @@ bool readRgba(const std::string& path, Source& source, OIIO::TypeDesc type, T mo
     const OIIO::ImageSpec& spec = source.spec();
     width = uint32_t(spec.width);
     height = uint32_t(spec.height);
-    rgba.assign(size_t(width) * height * 4, most);
-    if (!readTexels(path, source, 4, type, rgba, error)) return false;
+    if (!readTexels(path, source, 4, type, most, rgba, error)) return false;
     const bool greyAlpha = spec.nchannels == 2 && spec.alpha_channel == 1;
     if (spec.nchannels == 1 || greyAlpha)
         for (size_t i = 0; i < rgba.size(); i += 4) {
@@ -174,8 +192,7 @@ bool readGrey(const std::string& path, GreyPicture& out, std::string& error) {
         if (!source) return false;
         out.width = uint32_t(source->spec().width);
         out.height = uint32_t(source->spec().height);
-        out.texels.assign(size_t(out.width) * out.height, 0);
-        return readTexels(path, *source, 1, OIIO::TypeDesc::FLOAT, out.texels, error) &&
+        return readTexels(path, *source, 1, OIIO::TypeDesc::FLOAT, 0.f, out.texels, error) &&
                limit(path, out.texels, out.limited, error);
     });
 }
@@ -187,9 +204,10 @@ bool readColours(const std::string& path, std::vector<GreyPicture>& channels, st
         const OIIO::ImageSpec& spec = source->spec();
         const int count = spec.nchannels < 3 ? 1 : 3;
         const size_t texels = size_t(spec.width) * size_t(spec.height);
-        std::vector<float> all(texels * size_t(count));
+        std::vector<float> all;
         uint64_t limited = 0;
-        if (!readTexels(path, *source, count, OIIO::TypeDesc::FLOAT, all, error) || !limit(path, all, limited, error))
+        if (!readTexels(path, *source, count, OIIO::TypeDesc::FLOAT, 0.f, all, error) ||
+            !limit(path, all, limited, error))
             return false;
         if (storesIntegers(spec)) std::ranges::transform(all, all.begin(), linearOf);
         channels.assign(3, {uint32_t(spec.width), uint32_t(spec.height), std::vector<float>(texels)});

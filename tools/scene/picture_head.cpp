@@ -75,7 +75,10 @@ bool readJpeg(Bytes bytes, PictureHead& out, std::string& error) {
             out.scans = 0;
             for (size_t scan = bytes.find("\xFF\xDA"); scan != Bytes::npos; scan = bytes.find("\xFF\xDA", scan + 2))
                 ++out.scans;
-            return true;
+            // The library would take what is missing for grey.
+            const size_t end = bytes.rfind("\xFF\xD9"), last = bytes.rfind("\xFF\xDA");
+            const bool ends = last == Bytes::npos || (end != Bytes::npos && end > last);
+            return ends || fail(error, "is damaged: it is cut off");
         }
         if (marker == 0xD9 || marker == 0xDA) break;  // its end, or texels before the header
         at += 2 + bigEndian(bytes.substr(at + 2, 2));

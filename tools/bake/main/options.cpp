@@ -70,8 +70,9 @@ void addBakeOptions(CLI::App& app, Arguments& arguments) {
         ->capture_default_str()
         ->check(CLI::Range(0, 8))
         ->group(kOfModels);
-    app.add_option("--tolerance", arguments.tolerance,
-                   "metres within which borders without a twin are linked; 0: one texel's footprint")
+    app.add_option(
+           "--tolerance", arguments.tolerance,
+           "metres within which borders without a twin are linked; 0: one texel's footprint, a centimetre at most")
         ->check(CLI::Range(0.0, 1e6))
         ->group(kOfModels);
     app.add_option("--uv-set", arguments.importing.uvSet, "the TEXCOORD set that is unwrapped")
