@@ -219,7 +219,7 @@ Status GpuGrowth::growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Ou
         env.phase = lastWave(noCut(inputs.limits));
         {
             Pass pass(*commands, "expand march");
-            recordWaves(pass, kernel(GrowthKernel::marchAgain), true, env, first, last);
+            recordWaves(pass, kernel(GrowthKernel::marchAgain), env, first, last);
         }
         env.wave = last;
         recordAgain(*commands, env);

@@ -16,30 +16,13 @@ struct ChunkReads {
     uint marks, uses;
     uint words[3];   // Chunk::reads
 };
-#ifdef __cplusplus
-inline ChunkReads readReads(const ExpandEnv& env, uint at) {
-    const Chunk& c = env.chunks.v[at];
-    return {c.marks, c.uses, {c.reads[0], c.reads[1], c.reads[2]}};
-}
-#else
-ChunkReads readReads(ExpandEnv env, uint chunk) {
+FN ChunkReads readReads(ExpandEnv env, uint chunk) {
     ChunkReads r;
-    if (kRecordsByAddress != 0u) {
-        r.marks = env.chunks.v[chunk].marks;
-        r.uses = env.chunks.v[chunk].uses;
-        for (uint i = 0u; i < 3u; ++i) r.words[i] = env.chunks.v[chunk].reads[i];
-    } else {
-        uvec4 marks = CHUNK_TEXEL(7u * chunk + 5u);
-        uvec4 reads = CHUNK_TEXEL(7u * chunk + 6u);
-        r.marks = marks.y;
-        r.uses = marks.z;
-        r.words[0] = reads.y;
-        r.words[1] = reads.z;
-        r.words[2] = reads.w;
-    }
+    r.marks = env.chunks.v[chunk].marks;
+    r.uses = env.chunks.v[chunk].uses;
+    for (uint i = 0u; i < 3u; ++i) r.words[i] = env.chunks.v[chunk].reads[i];
     return r;
 }
-#endif
 FN uint tileOf(ChunkReads r, uint i) { return (r.words[i >> 1u] >> ((i & 1u) * 16u)) & 0xFFFFu; }
 
 // Whether one of its tiles lies in the box of what is dirty.
