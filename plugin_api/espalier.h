@@ -133,7 +133,7 @@ typedef struct EspSurfaceInfo {
 
 /* Loads what espalier-bake wrote and places it. Where it touches other surfaces or runs into them, plants go over from
  * one to the other. What lies within another surface's solid body is no ground until one of them is elsewhere: nothing
- * grows there, and seeds there wait. place: NULL is the identity. At most 255 surfaces a context. */
+ * grows there, and seeds there wait. place: NULL is the identity. At most 4,095 surfaces a context. */
 ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
 /* Likewise, of ground that something else draws, such as the walls of a town's houses: of it only ESP_VIEW_CHARTS and
  * ESP_VIEW_LAYER show anything, and it casts no shadow. */

@@ -13,8 +13,6 @@
 namespace espalier {
 namespace {
 
-constexpr uint32_t kMaxSurfaces = 255;  // read sets name an instance by 8 bits
-
 glm::mat4 matrixOf(const EspTransform& place) {
     glm::mat4 m(1);
     for (int row = 0; row < 3; ++row)
@@ -112,8 +110,9 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     if (!scale)
         return fail(&context, ESP_INVALID_ARGUMENT,
                     call + "the transform must move (by up to 1e9 m), turn and scale evenly, without mirroring");
-    if (context.surfaces.size() >= kMaxSurfaces)
-        return fail(&context, ESP_INVALID_ARGUMENT, call + "there are 255 surfaces already");
+    if (context.surfaces.size() >= SurfaceTable::kMaxPlaces)
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    call + "there are " + std::to_string(SurfaceTable::kMaxPlaces) + " surfaces already");
     if (EspResult readable = checkReadable(&context, path)) return readable;
     Result<SurfaceData> data = readSurface(path);
     if (!data) return failContent(&context, data.failure());

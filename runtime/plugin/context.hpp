@@ -20,7 +20,8 @@
 
 namespace espalier {
 
-using SurfaceTable = IdTable<PlacedSurface, 8>;  // a place is the number of an instance, of 8 bits in read sets
+// A place is the number of an instance. Records have 16 bits for it; fewer here leave an id more generations.
+using SurfaceTable = IdTable<PlacedSurface, 12>;
 
 }  // namespace espalier
 

@@ -131,7 +131,7 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower
     uint flags = kChunkPublished | (g.reads.beyond ? kChunkBeyond : 0u);
     flags = flags | (g.phase == kPhaseDead ? kChunkDeadEnd : 0u) | (g.phase == kPhaseStopped ? kChunkStopped : 0u);
     flags = flags | (g.phase == kPhaseDead && g.turnedBack ? kChunkTurnedBack : 0u);
-    c.marks = (site.sceneLayers << 16u) | (g.count << 8u) | flags;
+    c.marks = (site.sceneLayers << 16u) | (g.count << 8u) | readLevelMarks(g.reads.level) | flags;
     c.uses = g.reads.uses;
     c.firstChild = kNoIndex;
     c.nextSibling = joinSiblings(env, item, site.chunk);
