@@ -91,7 +91,7 @@ struct RandomEdits {
     template <class Call>
     void forSeed(const char* what, Call&& call) {
         if (const EspSeed seed = anySeed(); seed.id) {
-            const bool done = twins.both([&](EspContext* c) { return call(c, seed); });
+            const bool done = twins.both([&](EspContext* c) { return call(c, twins.in(c, seed)); });
             note("%s seed %x%s", what, seed.id, done ? "" : ": refused");
         }
     }
@@ -137,17 +137,19 @@ struct RandomEdits {
             note("%s %s by stroke %x, radius %.3f, value %.2f: %zu dabs at %.3f %.3f %.3f", modes[brush.mode],
                  brush.layer, int(brush.mode), double(brush.radius), double(brush.value), dabs.size(),
                  double(at.position[0]), double(at.position[1]), double(at.position[2]));
-            REQUIRE(
-                twins.both([&](EspContext* c) { return espStrokeDabs(c, made, dabs.data(), uint32_t(dabs.size())); }));
+            REQUIRE(twins.both([&](EspContext* c) {
+                return espStrokeDabs(c, twins.in(c, made), dabs.data(), uint32_t(dabs.size()));
+            }));
             small = brush.radius < .12f;
             if (call > 0 && !grow()) return false;
         }
-        REQUIRE(twins.both([&](EspContext* c) { return espEndStroke(c, made); }));
+        REQUIRE(twins.both([&](EspContext* c) { return espEndStroke(c, twins.in(c, made)); }));
         keep(made);
         return true;
     }
     void keep(EspStroke stroke) {
-        for (EspStroke gone : undone_) twins.both([&](EspContext* c) { return espDestroyStroke(c, gone); });
+        for (EspStroke gone : undone_)
+            twins.both([&](EspContext* c) { return espDestroyStroke(c, twins.in(c, gone)); });
         undone_.clear();
         done_.push_back(stroke);
     }
@@ -156,7 +158,7 @@ struct RandomEdits {
         std::vector<EspStroke>&from = back ? done_ : undone_, &to = back ? undone_ : done_;
         if (from.empty()) return;
         note("%s %x", back ? "undo" : "redo", from.back().id);
-        REQUIRE(twins.both([&](EspContext* c) { return espSwapStroke(c, from.back()); }));
+        REQUIRE(twins.both([&](EspContext* c) { return espSwapStroke(c, twins.in(c, from.back())); }));
         to.push_back(from.back());
         from.pop_back();
     }
@@ -187,7 +189,11 @@ struct RandomEdits {
         }
         def.texels = texels.data();
         note("import %s on %x, %u texels wide", def.name, def.surface.id, def.width);
-        keep(twins.make<EspStroke>([&](EspContext* c, EspStroke* out) { return espImportLayer(c, &def, out); }));
+        const EspSurface surface = def.surface;
+        keep(twins.make<EspStroke>([&](EspContext* c, EspStroke* out) {
+            def.surface = twins.in(c, surface);
+            return espImportLayer(c, &def, out);
+        }));
     }
     void dropLayer() {
         if (filled_) return;
@@ -195,7 +201,11 @@ struct RandomEdits {
         def.surface = twins.surfaces[below(uint32_t(twins.surfaces.size()))];
         def.name = layerName();
         note("drop %s from %x", def.name, def.surface.id);
-        twins.both([&](EspContext* c) { return espSetLayer(c, &def); });
+        const EspSurface surface = def.surface;
+        twins.both([&](EspContext* c) {
+            def.surface = twins.in(c, surface);
+            return espSetLayer(c, &def);
+        });
     }
 
     // A parameter of a grammar, and a value for it near its present one.
@@ -211,7 +221,8 @@ struct RandomEdits {
         float value = 0;
         const std::string name = param(g, &value).name;
         note("set %s of grammar %u: %g", name.c_str(), g, double(value));
-        REQUIRE(twins.both([&](EspContext* c) { return espSetParam(c, grammars_[g], name.c_str(), &value, 1); }));
+        REQUIRE(twins.both(
+            [&](EspContext* c) { return espSetParam(c, twins.in(c, grammars_[g]), name.c_str(), &value, 1); }));
     }
     void seedParam() {
         const EspSeed seed = anySeed();
@@ -220,14 +231,15 @@ struct RandomEdits {
         const std::string name = param(infoOf(seed).def.grammar.id == grammars_[1].id, &value).name;
         const uint32_t count = below(4) ? 1 : 0;
         note("%s %s of seed %x: %g", count ? "give" : "take", name.c_str(), seed.id, double(value));
-        REQUIRE(twins.both([&](EspContext* c) { return espSetSeedParam(c, seed, name.c_str(), &value, count); }));
+        REQUIRE(twins.both(
+            [&](EspContext* c) { return espSetSeedParam(c, twins.in(c, seed), name.c_str(), &value, count); }));
     }
     void rewrite() {
         const uint32_t g = below(2), edition = below(2) ? 0 : below(5);
         note("write edition %u of grammar %u", edition, g);
         texts_[g] = editionOf(g, edition);
         const EspGrammarDef def{"edits", texts_[g].c_str(), texts_[g].size()};
-        REQUIRE(twins.both([&](EspContext* c) { return espRecompileGrammar(c, grammars_[g], &def); }));
+        REQUIRE(twins.both([&](EspContext* c) { return espRecompileGrammar(c, twins.in(c, grammars_[g]), &def); }));
     }
 
     void plant() {
@@ -236,7 +248,11 @@ struct RandomEdits {
         def.grammar = grammars_[below(3) == 0];
         for (int i = 0; i < 3; ++i) def.position[i] = at.position[i], def.direction[i] = in(-1, 1);
         def.number = below(4);
-        const EspSeed made = twins.make<EspSeed>([&](EspContext* c, EspSeed* out) { return espPlant(c, &def, out); });
+        const EspGrammar grammar = def.grammar;
+        const EspSeed made = twins.make<EspSeed>([&](EspContext* c, EspSeed* out) {
+            def.grammar = twins.in(c, grammar);
+            return espPlant(c, &def, out);
+        });
         note("plant %x, number %u, at %.3f %.3f %.3f", made.id, def.number, double(at.position[0]),
              double(at.position[1]), double(at.position[2]));
     }
@@ -248,7 +264,8 @@ struct RandomEdits {
         const EspHit at = place();
         const float direction[3] = {in(-1, 1), in(-1, 1), in(-1, 1)};
         forSeed(turn ? "turn" : "move", [&](EspContext* c, EspSeed seed) {
-            return espMoveSeed(c, seed, turn ? infoOf(seed).def.position : at.position, direction);
+            const EspSeed ours = twins.in(twins.context(), seed);
+            return espMoveSeed(c, seed, turn ? infoOf(ours).def.position : at.position, direction);
         });
     }
     // Few numbers, so that plants follow each other under one.
@@ -297,15 +314,16 @@ struct RandomEdits {
             kept_.resize(size);
             REQUIRE(espReadFrozen(twins.context(), seed, kept_.data(), &size) == ESP_OK);
         }
-        const bool did = twins.both([&](EspContext* c) { return espFreezePlant(c, seed, !frozen); });
+        const bool did = twins.both([&](EspContext* c) { return espFreezePlant(c, twins.in(c, seed), !frozen); });
         note("%s seed %x%s", frozen ? "thaw" : "freeze", seed.id, did ? "" : ": refused");
     }
     void moveSurface() {
         if (filled_) return;
         const uint32_t which = below(uint32_t(poses_.size())), pose = below(uint32_t(poses_[which].size()));
         note("place surface %u in its pose %u", which, pose);
-        REQUIRE(
-            twins.both([&](EspContext* c) { return espMoveSurface(c, twins.surfaces[which], &poses_[which][pose]); }));
+        REQUIRE(twins.both([&](EspContext* c) {
+            return espMoveSurface(c, twins.in(c, twins.surfaces[which]), &poses_[which][pose]);
+        }));
     }
 
     std::vector<uint32_t> theme_;

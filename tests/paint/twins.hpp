@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,13 +77,20 @@ class Twins {
         if (first != ESP_OK && first != ESP_INVALID_ARGUMENT) FAIL(std::string(espLastError(all_[0])));
         return first == ESP_OK;
     }
-    // Makes something in both; its id is the same in both. None: both refused.
+    // Makes something in both. Returns its id in the first. None: both refused.
     template <class Id, class Call>
     Id make(Call&& call) {
         Id ids[2] = {};
         both([&](EspContext* c) { return call(c, &ids[c == all_[1]]); });
-        REQUIRE(ids[0].id == ids[1].id);
+        for (int i = 0; i < 2; ++i) learn(all_[i], ids[i].id);
+        REQUIRE(ids[1].id == in(all_[1], ids[0]).id);
         return ids[0];
+    }
+    // The same thing's id in another context: ids differ by the contexts' numbers.
+    template <class Id>
+    Id in(EspContext* c, Id id) const {
+        if (id.id != 0) id.id = (id.id & ~kContextBits) | numbers_.at(c);
+        return id;
     }
     // Grows both; whether they are the same then.
     bool alike() {
@@ -105,7 +113,8 @@ class Twins {
         for (size_t i = 0; i < files_.size(); ++i) {
             EspSurface surface{};
             must(fresh, espLoadSurface(fresh, files_[i].c_str(), &places[i], &surface));
-            REQUIRE(surface.id == surfaces[i].id);
+            learn(fresh, surface.id);
+            REQUIRE(surface.id == in(fresh, surfaces[i]).id);
         }
         for (const auto& [grammar, text] : grammars) giveGrammar(fresh, grammar, text);
         for (uint32_t i = 0; i < espPaintedLayerCount(context()); ++i)
@@ -120,6 +129,7 @@ class Twins {
         const bool found = same(grown_[0], stats);
         if (!found) tell("edits", grown_[0]), tell("from nothing", stats);
         espDestroy(fresh);
+        numbers_.erase(fresh);
         return found;
     }
 
@@ -127,6 +137,10 @@ class Twins {
     std::vector<EspTransform> places;  // as they were loaded
 
   private:
+    static constexpr uint32_t kContextBits = 0xFC000000u;  // of an id: the number of its context
+    void learn(EspContext* c, uint32_t id) {
+        if (id != 0) numbers_[c] = id & kContextBits;
+    }
     static EspContext* created() {
         EspContextDef def = espDefaultContextDef();
         def.log = [](void*, EspLogLevel, const char*) {};
@@ -159,7 +173,7 @@ class Twins {
         const EspGrammarDef def{"edits", text.c_str(), text.size()};
         EspGrammar made{};
         must(fresh, espCompileGrammar(fresh, &def, &made));
-        REQUIRE(made.id == grammar.id);
+        REQUIRE(made.id == in(fresh, grammar).id);
         for (uint32_t i = 0; i < espParamCount(context(), grammar); ++i) {
             EspParamInfo info{};
             must(context(), espParamInfo(context(), grammar, i, &info));
@@ -172,7 +186,7 @@ class Twins {
             must(context(), espReadLayer(context(), surface, name, nullptr, &def.width));
             std::vector<float> texels(size_t(def.width) * def.width);
             must(context(), espReadLayer(context(), surface, name, texels.data(), &def.width));
-            def.surface = surface;
+            def.surface = in(fresh, surface);
             def.name = name;
             def.space = ESP_LAYER_TEXELS;
             def.texels = texels.data();
@@ -185,7 +199,9 @@ class Twins {
         EspSeedInfo info{};
         must(context(), espSeedAt(context(), index, &seed));
         must(context(), espSeedInfo(context(), seed, &info));
-        must(fresh, espPlant(fresh, &info.def, &made));
+        EspSeedDef def = info.def;
+        def.grammar = in(fresh, def.grammar);
+        must(fresh, espPlant(fresh, &def, &made));
         for (const auto& [grammar, text] : grammars)
             for (uint32_t i = 0; grammar.id == info.def.grammar.id && i < espParamCount(context(), grammar); ++i) {
                 EspParamInfo param{};
@@ -207,6 +223,7 @@ class Twins {
     EspGrowDef grow_[2] = {espDefaultGrowDef(), espDefaultGrowDef()};
     EspStats grown_[2] = {};
     std::vector<std::string> files_;
+    std::map<EspContext*, uint32_t> numbers_;  // kContextBits of each one's ids
 };
 
 }  // namespace espalier::test
