@@ -74,7 +74,6 @@ class GpuGrowth final : public Growth {
     // What a growth was made from: all that the next one compares.
     struct Origin : GrownFrom {
         GrowthLimits limits;
-        uint32_t surfaceCount = 0;
         std::vector<RuleMapRef> maps;
     };
     struct Outcome {

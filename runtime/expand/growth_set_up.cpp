@@ -253,7 +253,6 @@ GpuGrowth::Origin GpuGrowth::originOf(const GrowthInputs& inputs) {
     origin.pruned.assign(inputs.pruned.begin(), inputs.pruned.end());
     origin.widths.assign(inputs.widths.begin(), inputs.widths.end());
     origin.limits = inputs.limits;
-    origin.surfaceCount = inputs.surfaceCount;
     origin.maps.assign(inputs.grammars.begin(), inputs.grammars.end());
     return origin;
 }

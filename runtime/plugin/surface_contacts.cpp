@@ -100,7 +100,7 @@ bool buriedByOthers(const EspContext& context, const PlantedSeed& seed) {
 
 Status refreshContacts(EspContext& context) {
     const auto start = std::chrono::steady_clock::now();
-    if (!context.moved.empty()) context.moved.resize(context.surfaceSlots());
+    context.surfaceChanges.resize(context.surfaceSlots());
     std::vector<Stand> stands;
     std::vector<Box> boxes;
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
@@ -152,7 +152,7 @@ Status refreshContacts(EspContext& context) {
         if (!status || (same(wanted, surface.contacts) && buried == surface.buried)) return;
         status = surface.gpu.addCrossings(*context.device, surface.data, wanted, buried);
         if (!status) return;
-        if (buried != surface.buried && !context.moved.empty()) context.moved[surface.instance] = true;
+        context.surfaceChanges[surface.instance] = SurfaceChange::ground;
         surface.contacts = std::move(wanted), surface.buried = std::move(buried);
         context.tablesStale = true;
     });
