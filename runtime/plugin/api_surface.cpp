@@ -158,7 +158,7 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
             "espMoveSurface: the transform must move (by up to 1e9 m), turn and scale evenly, without mirroring");
     if (toWorld == surface.toWorld) return ESP_OK;
     // All that asks for memory comes first. What it touches from now on is known when contacts have been found anew.
-    SurfaceChanges changes = withChange(context, surface.instance, SurfaceChange::ground);
+    SurfaceChanges changes = withChange(context, surface.instance, changeOfMove(surface.toWorld, toWorld));
     // A frozen plant stands in its surface's own space, but for its thickness.
     thawPlantsOn(context, surface.instance, sameScale(*scale, surface.scale));
     const glm::mat4 shift = toWorld * surface.toObject;

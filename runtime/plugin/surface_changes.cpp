@@ -2,6 +2,7 @@
 #include "runtime/plugin/surface_changes.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/seeds.hpp"
@@ -9,6 +10,25 @@
 #include "runtime/plugin/surface_point.hpp"
 
 namespace espalier {
+namespace {
+
+// What of the world a surface's plants may ask for, so that they grow otherwise after its change; kInput... bits.
+uint32_t inputsChangedBy(SurfaceChange change) {
+    switch (change) {
+        case SurfaceChange::none: return 0;
+        case SurfaceChange::shifted: return kInputPosition | kInputHeight;
+        case SurfaceChange::turned: return kInputsOfWorld;
+        case SurfaceChange::ground: break;
+    }
+    return ~0u;
+}
+
+}  // namespace
+
+SurfaceChange changeOfMove(const glm::mat4& before, const glm::mat4& after) {
+    if (scaleOf(before) != scaleOf(after)) return SurfaceChange::ground;
+    return glm::mat3(before) == glm::mat3(after) ? SurfaceChange::shifted : SurfaceChange::turned;
+}
 
 SurfaceChanges withChange(const EspContext& context, uint32_t instance, SurfaceChange change) {
     SurfaceChanges changes = context.surfaceChanges;
@@ -29,9 +49,13 @@ void noteSurfaceChanges(EspContext& context) {
     std::vector<bool> other(changes.size());
     for (size_t i = 0; i < changes.size(); ++i) other[i] = changes[i] == SurfaceChange::ground;
     addReached(context, other);
+    std::map<uint32_t, uint32_t> asked;  // by grammars, by their ids; variants have the same rules
+    context.grammars.forEach([&](uint32_t id, const LoadedGrammar& grammar) { asked[id] = grammar.map.inputs(); });
     std::vector<uint64_t>& noted = context.changes.seeds;
     context.seeds.forEach([&](uint32_t, const PlantedSeed& seed) {
-        if (other[instanceOf(seed.surface)]) noted.push_back(seedKey(seed));
+        const uint32_t instance = instanceOf(seed.surface);
+        if (other[instance] || (inputsChangedBy(changes[instance]) & asked.at(seed.grammar)) != 0)
+            noted.push_back(seedKey(seed));
     });
     // They are noted again at each attempt until one succeeds.
     std::ranges::sort(noted);
