@@ -15,10 +15,14 @@ namespace {
 // What of the world a surface's plants may ask for, so that they grow otherwise after its change; kInput... bits.
 uint32_t inputsChangedBy(SurfaceChange change) {
     switch (change) {
-        case SurfaceChange::none: return 0;
-        case SurfaceChange::shifted: return kInputPosition | kInputHeight;
-        case SurfaceChange::turned: return kInputsOfWorld;
-        case SurfaceChange::ground: break;
+        case SurfaceChange::none:
+            return 0;
+        case SurfaceChange::shifted:
+            return kInputPosition | kInputHeight;
+        case SurfaceChange::turned:
+            return kInputsOfWorld;
+        case SurfaceChange::ground:
+            break;
     }
     return ~0u;
 }

@@ -82,7 +82,8 @@ TEST_CASE("a surface that comes against another regrows the plants that can get 
     painting.hash();
 }
 
-TEST_CASE("what has been painted on a surface that goes is forgotten by plants from beside it, though one like it comes") {
+TEST_CASE(
+    "what has been painted on a surface that goes is forgotten by plants from beside it, though one like it comes") {
     const Painting painting;
     const EspGrammar grammar = painting.grammar(kMaskedIvy);
     const EspSurface against = painting.another(movedBy(kAgainst));
@@ -108,7 +109,9 @@ TEST_CASE("after surfaces have come, gone and moved at random, what stands is wh
     std::mt19937 random(5);
     const auto below = [&](uint32_t n) { return uint32_t(random() % n); };
     // Some of these touch each other, some don't.
-    const auto somewhere = [&] { return glm::vec3(1.5f * float(below(5)), .3f * float(below(2)), 3 * float(below(3))); };
+    const auto somewhere = [&] {
+        return glm::vec3(1.5f * float(below(5)), .3f * float(below(2)), 3 * float(below(3)));
+    };
     std::vector<EspSurface> surfaces{painting.surface};
     uint32_t derivedNothing = 0;
     for (uint32_t step = 0; step < 60; ++step) {

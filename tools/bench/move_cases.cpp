@@ -1,5 +1,5 @@
-// move/…: surfaces that move, come and go by themselves, through the plugin's interface: what an update costs then, beside
-// growing everything anew. Painting and drawing aren't in it.
+// move/…: surfaces that move, come and go by themselves, through the plugin's interface: what an update costs then,
+// beside growing everything anew. Painting and drawing aren't in it.
 #include <unistd.h>
 
 #include <cstdio>
@@ -140,8 +140,8 @@ void moveAlone(Bench& bench, Walls& walls) {
     const Pair times = medianSeconds(bench.options().repeats, move, [&] { sound = walls.growAll() && sound; });
     if (!sound) return bench.skip("move/alone", walls.why());
     const std::string what = "a wall with " + std::to_string(walls.onWall()) + " nodes moves by itself";
-    bench.add({"move/alone", figureOf(what.c_str(), nodes), "ms", 1e3 * times.a / kMoves, "everything anew",
-               1e3 * times.b});
+    bench.add(
+        {"move/alone", figureOf(what.c_str(), nodes), "ms", 1e3 * times.a / kMoves, "everything anew", 1e3 * times.b});
     bench.add({"move/alone/derived", "nodes derived by all of these", "nodes", double(derived), "those that stand",
                double(nodes)});
     const Pair pictures = medianSeconds(
