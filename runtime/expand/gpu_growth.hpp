@@ -187,10 +187,10 @@ class GpuGrowth final : public Growth {
 
     Device& device_;
     GrowthKernels kernels_;
-    Crew crew_;                  // of native code; its threads sleep between growths
-    const GrowthRoom least_;     // to begin with
-    GrowthRoom room_;            // of a full growth, beside frozen plants
-    uint32_t likelyWaves_ = 24;  // recorded in the first submission
+    Crew crew_;                     // of native code; its threads sleep between growths
+    const GrowthRoom least_;        // to begin with
+    GrowthRoom room_;               // of a full growth, beside frozen plants
+    uint32_t likelyWaves_ = 24;     // recorded in the first submission
     bool tablesByAddress_ = false;  // else from a uniform buffer, which holds kUniformTableWords
     DoubleBuffered<Plants> plants_;
     DoubleBuffered<Links> links_;
