@@ -133,15 +133,20 @@ typedef struct EspSurfaceInfo {
 
 /* Loads what espalier-bake wrote and places it. Where it touches other surfaces or runs into them, plants go over from
  * one to the other. What lies within another surface's solid body is no ground until one of them is elsewhere: nothing
- * grows there, and seeds there wait. place: NULL is the identity. At most 255 surfaces a context. */
+ * grows there, and seeds there wait. In the next espUpdate only plants grow again that can get to it from where they
+ * stand. place: NULL is the identity. At most 4,095 surfaces a context. */
 ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
 /* Likewise, of ground that something else draws, such as the walls of a town's houses: of it only ESP_VIEW_CHARTS and
  * ESP_VIEW_LAYER show anything, and it casts no shadow. */
 ESP_API EspResult espLoadGround(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
 /* Puts a surface elsewhere, with its seeds and layers. In the next espUpdate contacts with other surfaces are found anew,
- * and plants grow again that can get to it from where they stand; others are left alone. */
+ * and plants grow again that can get to it from where they stand; others are left alone. Of a surface that touches no
+ * other, neither before nor after, plants go along as they are, if it keeps its scale to the last bit (moves do, and
+ * nearly all turns of a surface of scale 1). Only those grow again whose grammar asks for what has changed: `position`
+ * and `height`, and if the surface has turned also `normal`, `heading`, `slope` and `angleTo`. */
 ESP_API EspResult espMoveSurface(EspContext* context, EspSurface surface, const EspTransform* place);
-ESP_API EspResult espDestroySurface(EspContext* context, EspSurface surface);   /* its seeds and layers go with it */
+/* Its seeds and layers go with it. In the next espUpdate only plants grow again that could get to it. */
+ESP_API EspResult espDestroySurface(EspContext* context, EspSurface surface);
 ESP_API EspResult espSurfaceInfo(const EspContext* context, EspSurface surface, EspSurfaceInfo* out);
 
 typedef struct EspHit {

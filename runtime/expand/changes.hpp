@@ -19,12 +19,12 @@ struct DirtyCells {
 };
 
 struct GrowthChanges {
-    bool everything = true;  // surfaces, limits, what isn't known: all is grown anew
+    bool everything = true;  // limits, what isn't known: all is grown anew
     std::vector<DirtyCells> cells;
     std::vector<std::pair<uint32_t, uint32_t>> uses;  // grammar's index, what of it has changed, as Chunk::uses
     std::vector<uint32_t> grammars;                   // indices of those whose plants grow anew
     std::vector<uint32_t> extrudes{};                 // of those that draw something else on spans
-    std::vector<uint64_t> seeds{};   // keys of seeds whose plants grow anew: what they stand on has moved
+    std::vector<uint64_t> seeds{};                    // keys of seeds whose plants grow anew: their ground is another
     std::vector<uint64_t> frozen{};  // keys of frozen plants that aren't what grew there: their records are put in
 
     // Texels [x0, x1) × [y0, y1) of a layer of `size` texels a side have other values. All of them, when a layer comes,

@@ -2,6 +2,7 @@
 // begins with them: records in one row, the structure's hash, counters.
 #include "runtime/expand/frozen.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -54,6 +55,16 @@ void take(std::span<const std::byte>& from, std::vector<T>& to, uint32_t count) 
     to.resize(count);
     if (count > 0) std::memcpy(to.data(), from.data(), count * sizeof(T));
     from = from.subspan(count * sizeof(T));
+}
+
+// A frozen plant is never looked at for an edit, so its file holds no read sets. Files of before hold some in another
+// form, which are left out as well.
+std::vector<Chunk> withoutReads(std::vector<Chunk> chunks) {
+    for (Chunk& chunk : chunks) {
+        chunk.marks &= ~kReadLevelBits;
+        std::ranges::fill(chunk.reads, 0u);
+    }
+    return chunks;
 }
 
 constexpr float kFarthest = 1e9f;  // metres from a surface's origin
@@ -175,7 +186,7 @@ std::vector<std::byte> packPlant(const PlantRecords& p) {
     std::vector<std::byte> bytes(sizeof head + recordBytes(head));
     std::byte* at = bytes.data() + sizeof head;
     at = put(at, p.nodes);
-    at = put(at, p.chunks);
+    at = put(at, withoutReads(p.chunks));
     at = put(at, p.branches);
     put(at, p.leaves);
     head.hash = hashBytes(std::span(bytes).subspan(sizeof head));
@@ -199,6 +210,7 @@ Result<PlantRecords> unpackPlant(std::span<const std::byte> bytes, uint32_t surf
     PlantRecords plant;
     take(bytes, plant.nodes, head.nodes);
     take(bytes, plant.chunks, head.chunks);
+    plant.chunks = withoutReads(std::move(plant.chunks));
     take(bytes, plant.branches, head.branches);
     take(bytes, plant.leaves, head.leaves);
     if (!sound(plant, surfaces))

@@ -18,7 +18,6 @@
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/gpu/commands.hpp"
 #include "shaders/expand/compact.h"
-#include "shaders/expand/lane_words.h"
 #include "shaders/shared/expand_again.h"
 #include "shaders/shared/expand_tables.h"
 
@@ -85,7 +84,6 @@ class Growth {
     // What a growth was made from: all that the next one compares.
     struct Origin : GrownFrom {
         GrowthLimits limits;
-        uint32_t surfaceCount = 0;
         std::vector<RuleMapRef> maps;
     };
     struct Outcome {

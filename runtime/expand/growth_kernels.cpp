@@ -2,6 +2,7 @@
 #include "runtime/expand/growth_kernels.hpp"
 
 #include "runtime/core/check.hpp"
+#include "shaders/expand/lane_words.h"  // whose sums are checked where C++ reads them
 #include "shaders/shared/expand_env.h"
 #include "shaders/shared/rule_map.h"
 

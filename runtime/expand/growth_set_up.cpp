@@ -256,7 +256,6 @@ Growth::Origin Growth::originOf(const GrowthInputs& inputs) {
     origin.pruned.assign(inputs.pruned.begin(), inputs.pruned.end());
     origin.widths.assign(inputs.widths.begin(), inputs.widths.end());
     origin.limits = inputs.limits;
-    origin.surfaceCount = inputs.surfaceCount;
     origin.maps.assign(inputs.grammars.begin(), inputs.grammars.end());
     return origin;
 }

@@ -26,7 +26,7 @@ bool Growth::canRegrow(const GrowthInputs& inputs) const {
         return false;
     // Counts of leaves by cell and directions at joints are sums over the whole plant.
     if (inputs.limits.walk == WalkMode::paper || inputs.limits.tangents == TangentMode::paper) return false;
-    if (inputs.limits.leafDensityCap > 0 || inputs.surfaceCount != origin_.surfaceCount) return false;
+    if (inputs.limits.leafDensityCap > 0) return false;
     return inputs.grammars.size() >= origin_.maps.size();
 }
 

@@ -134,12 +134,15 @@ std::vector<uint32_t> keyWords(std::span<const uint64_t> keys) {
 }
 
 std::vector<uint32_t> editWords(const GrowthInputs& inputs, const SeedChanges& seeds) {
-    std::vector<uint32_t> words(kEditHead);
+    const GrowthChanges& changes = *inputs.changes;
+    uint32_t instances = 0;
+    for (const DirtyCells& dirty : changes.cells) instances = std::max(instances, dirty.instance + 1);
+    std::vector<uint32_t> words(kEditHead + instances);
+    words[kEditInstances] = instances;
     if (seeds.any && !seeds.to.empty()) {
         words[kEditSeeds] = uint32_t(words.size());
         words.insert(words.end(), seeds.to.begin(), seeds.to.end());
     }
-    const GrowthChanges& changes = *inputs.changes;
     if (!changes.uses.empty()) {
         words[kEditUses] = uint32_t(words.size());
         words.resize(words.size() + inputs.grammars.size());
@@ -159,7 +162,7 @@ std::vector<uint32_t> editWords(const GrowthInputs& inputs, const SeedChanges& s
         words.insert(words.end(), keys.begin(), keys.end());
     }
     // One grid an instance for all of its layers.
-    for (uint32_t instance = 0; instance < 256; ++instance) {
+    for (uint32_t instance = 0; instance < instances; ++instance) {
         std::vector<uint32_t> cells;
         for (const DirtyCells& dirty : changes.cells) {
             if (dirty.instance != instance) continue;
@@ -170,7 +173,7 @@ std::vector<uint32_t> editWords(const GrowthInputs& inputs, const SeedChanges& s
         if (cells.empty()) continue;
         const std::vector<uint32_t> grid = gridsOf(cells);
         words.push_back(boxOf(grid));
-        words[kEditInstances + instance] = uint32_t(words.size());
+        words[kEditGrids + instance] = uint32_t(words.size());
         words.insert(words.end(), grid.begin(), grid.end());
     }
     return words;

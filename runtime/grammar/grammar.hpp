@@ -102,6 +102,9 @@ class RuleMap {
     // Growth takes the surface as coarse as suits shapes of this width (GrowthInputs::widths).
     float width() const { return width_; }
 
+    // All that its rules and terminals ask of a place: kInput... bits.
+    uint32_t inputs() const;
+
     // What a device needs: a run of 32-bit words to be copied to an address that is a multiple of 16. Their number
     // is fixed; their content changes with setParam only.
     std::span<const uint32_t> words() const;

@@ -175,9 +175,13 @@ std::span<const uint32_t> RuleMap::words() const {
 
 namespace {
 
-// The kFeature... bits of what the map's records ask of places and its code does.
-uint32_t featuresOf(const RuleMap& map, const RuleMapRef& ref) {
-    uint32_t inputs = 0, layers = 0, features = kFeatureKnown;
+// What a map's records ask of places: kInput... bits, and layers.
+struct Asked {
+    uint32_t inputs = 0, layers = 0;
+};
+
+Asked askedBy(const RuleMap& map, const RuleMapRef& ref) {
+    uint32_t inputs = 0, layers = 0;
     for (uint32_t i = 0; i < ref.symbolCount; ++i) {
         const SymbolRecord r = RuleMapAccess::record<SymbolRecord>(map, kSectionSymbols, i);
         inputs |= r.inputs;
@@ -193,6 +197,13 @@ uint32_t featuresOf(const RuleMap& map, const RuleMapRef& ref) {
         inputs |= r.inputs;
         layers |= r.layers;
     }
+    return {inputs, layers};
+}
+
+// The kFeature... bits of what the map's records ask of places and its code does.
+uint32_t featuresOf(const RuleMap& map, const RuleMapRef& ref) {
+    const auto [inputs, layers] = askedBy(map, ref);
+    uint32_t features = kFeatureKnown;
     for (uint32_t i = 0; i < ref.codeCount; ++i)
         if (isHardOperation(RuleMapAccess::record<CodeWord>(map, kSectionCode, i).bits & 31u))
             features |= kFeatureHardCode;
@@ -205,6 +216,10 @@ uint32_t featuresOf(const RuleMap& map, const RuleMapRef& ref) {
 }
 
 }  // namespace
+
+uint32_t RuleMap::inputs() const {
+    return askedBy(*this, ref()).inputs;
+}
 
 RuleMapRef RuleMap::refAt(uint64_t address) const {
     RuleMapRef ref = {};

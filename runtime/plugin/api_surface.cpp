@@ -13,8 +13,6 @@
 namespace espalier {
 namespace {
 
-constexpr uint32_t kMaxSurfaces = 255;  // read sets name an instance by 8 bits
-
 glm::mat4 matrixOf(const EspTransform& place) {
     glm::mat4 m(1);
     for (int row = 0; row < 3; ++row)
@@ -100,9 +98,10 @@ void prepareSearch(PlacedSurface& surface) {
     surface.tree = MeshTree(positions, data.indices);
 }
 
+// What plants have to do with it shows when contacts have been found anew.
 void surfacesChanged(EspContext& context) {
     context.tablesStale = context.contactsStale = true;
-    context.touch();
+    ++context.revision;
 }
 
 EspResult load(EspContext& context, const char* path, const EspTransform& place, bool groundOnly, EspSurface* out) {
@@ -112,8 +111,9 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     if (!scale)
         return fail(&context, ESP_INVALID_ARGUMENT,
                     call + "the transform must move (by up to 1e9 m), turn and scale evenly, without mirroring");
-    if (context.surfaces.size() >= kMaxSurfaces)
-        return fail(&context, ESP_INVALID_ARGUMENT, call + "there are 255 surfaces already");
+    if (context.surfaces.size() >= SurfaceTable::kMaxPlaces)
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    call + "there are " + std::to_string(SurfaceTable::kMaxPlaces) + " surfaces already");
     if (EspResult readable = checkReadable(&context, path)) return readable;
     Result<SurfaceData> data = readSurface(path);
     if (!data) return failContent(&context, data.failure());
@@ -158,10 +158,7 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
             "espMoveSurface: the transform must move (by up to 1e9 m), turn and scale evenly, without mirroring");
     if (toWorld == surface.toWorld) return ESP_OK;
     // All that asks for memory comes first. What it touches from now on is known when contacts have been found anew.
-    std::vector<bool> reached = context.moved;
-    reached.resize(context.surfaceSlots());
-    reached[surface.instance] = true;
-    addReached(context, reached);
+    SurfaceChanges changes = withChange(context, surface.instance, changeOfMove(surface.toWorld, toWorld));
     // A frozen plant stands in its surface's own space, but for its thickness.
     thawPlantsOn(context, surface.instance, sameScale(*scale, surface.scale));
     const glm::mat4 shift = toWorld * surface.toObject;
@@ -182,9 +179,8 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
         seed.givenDirection = turned(seed.givenDirection);
     });
     context.plants.reset();  // which were read where they stood
-    context.moved = std::move(reached);
-    context.tablesStale = context.contactsStale = true;
-    ++context.revision;
+    context.surfaceChanges = std::move(changes);
+    surfacesChanged(context);
     return ESP_OK;
 }
 
@@ -278,6 +274,7 @@ EspResult espDestroySurface(EspContext* context, EspSurface surface) {
     return guarded(context, [&] {
         PlacedSurface* placed = context->surfaces.find(surface.id);
         if (!placed) return fail(context, ESP_INVALID_ARGUMENT, "espDestroySurface: no such surface");
+        SurfaceChanges changes = withChange(*context, placed->instance, SurfaceChange::ground);
         std::vector<uint32_t> gone;
         context->seeds.forEach([&](uint32_t id, const PlantedSeed& seed) {
             if (seed.surface == surface.id) gone.push_back(id);
@@ -287,6 +284,7 @@ EspResult espDestroySurface(EspContext* context, EspSurface surface) {
         std::erase_if(context->layers, [&](const PaintedLayer& layer) { return layer.surface == surface.id; });
         context->renderer->removeSurface(placed->instance);
         context->surfaces.erase(surface.id);
+        context->surfaceChanges = std::move(changes);
         surfacesChanged(*context);
         return ESP_OK;
     });

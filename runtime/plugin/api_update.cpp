@@ -14,19 +14,6 @@
 namespace espalier {
 namespace {
 
-// After contacts were found anew: seeds whose plants may stand on what has moved.
-void noteMoved(EspContext& context) {
-    if (context.moved.empty()) return;
-    addReached(context, context.moved);
-    context.seeds.forEach([&](uint32_t, const PlantedSeed& seed) {
-        if (context.moved[instanceOf(seed.surface)]) context.changes.seeds.push_back(seedKey(seed));
-    });
-    // Noted anew at each attempt until one succeeds.
-    std::vector<uint64_t>& noted = context.changes.seeds;
-    std::ranges::sort(noted);
-    noted.erase(std::ranges::unique(noted).begin(), noted.end());
-}
-
 // What has grown stands on these.
 void noteSurfaces(EspContext& context) {
     context.grownSurfaces.assign(context.surfaceSlots(), {});
@@ -120,7 +107,7 @@ void noteGrown(EspContext& context, std::vector<uint32_t> grammars, std::vector<
     context.grownGrammars = std::move(grammars);
     context.grownSeeds = std::move(seeds);
     context.changes = {.everything = false, .cells = {}, .uses = {}, .grammars = {}};
-    context.moved.clear();
+    context.surfaceChanges.clear();
     noteSurfaces(context);
     context.dropTriangles();
 }
@@ -128,7 +115,7 @@ void noteGrown(EspContext& context, std::vector<uint32_t> grammars, std::vector<
 EspResult growPlants(EspContext& context) {
     Status tables = context.refreshTables();
     if (!tables) return failGpu(&context, tables.failure());
-    noteMoved(context);
+    noteSurfaceChanges(context);
     Status variants = refreshVariants(context);
     if (!variants) return failGpu(&context, variants.failure());
     Maps maps = mapsOf(context);

@@ -16,11 +16,13 @@
 #include "runtime/gpu/device.hpp"
 #include "runtime/plugin/contents.hpp"
 #include "runtime/plugin/id_table.hpp"
+#include "runtime/plugin/surface_changes.hpp"
 #include "runtime/render/renderer.hpp"
 
 namespace espalier {
 
-using SurfaceTable = IdTable<PlacedSurface, 8>;  // a place is the number of an instance, of 8 bits in read sets
+// A place is the number of an instance. Records have 16 bits for it; fewer here leave an id more generations.
+using SurfaceTable = IdTable<PlacedSurface, 12>;
 
 }  // namespace espalier
 
@@ -66,7 +68,7 @@ struct EspContext {
     uint64_t grownRevision = 0;           // what the growth was made from
     espalier::FailedInputs failed;
     bool contactsStale = false;  // surfaces came, went or moved
-    std::vector<bool> moved;     // [instance]: plants on it may stand on what has moved since the last growth
+    espalier::SurfaceChanges surfaceChanges;
     std::vector<espalier::SurfacePair> pairs;
     std::set<uint32_t> touched;     // surfaces of pairs that changed, until refreshContacts has told them
     uint32_t contactCount = 0;      // crossings between surfaces

@@ -87,7 +87,7 @@ std::vector<uint32_t> Plants::nodesOf(uint32_t branch) const {
     if (first.previousNode != kNoIndex) nodes.push_back(first.previousNode);
     for (uint32_t c = records_.branches[branch].firstChunk; c != kNoIndex; c = records_.chunks[c].next) {
         const Chunk& chunk = records_.chunks[c];
-        for (uint32_t i = 0; i < (chunk.marks >> 8 & 255u); ++i) nodes.push_back(chunk.firstNode + i);
+        for (uint32_t i = 0; i < chunkNodes(chunk.marks); ++i) nodes.push_back(chunk.firstNode + i);
     }
     return nodes;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <numeric>
 
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/given.hpp"
@@ -35,19 +36,50 @@ bool same(const std::vector<Crossing>& a, const std::vector<Crossing>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Crossing)) == 0);
 }
 
+// [surface]: those whose boxes meet its box, ascending. Surfaces are gone through from left to right, so that only
+// those are compared that lie side by side.
+std::vector<std::vector<size_t>> neighboursOf(const std::vector<Box>& boxes) {
+    std::vector<size_t> order(boxes.size());
+    std::iota(order.begin(), order.end(), size_t(0));
+    std::ranges::sort(order, {}, [&](size_t i) { return boxes[i].low.x; });
+    std::vector<std::vector<size_t>> neighbours(boxes.size());
+    for (size_t a = 0; a < order.size(); ++a)
+        for (size_t b = a + 1; b < order.size() && boxes[order[b]].low.x <= boxes[order[a]].high.x; ++b) {
+            const size_t i = order[a], j = order[b];
+            if (!boxes[i].touches(boxes[j])) continue;
+            neighbours[i].push_back(j);
+            neighbours[j].push_back(i);
+        }
+    for (std::vector<size_t>& some : neighbours) std::ranges::sort(some);
+    return neighbours;
+}
+
 // The pairs whose boxes meet, each with the further surfaces that reach to where they do.
 std::vector<SurfacePair> pairsOf(const std::vector<Stand>& stands, const std::vector<Box>& boxes) {
+    const std::vector<std::vector<size_t>> neighbours = neighboursOf(boxes);
     std::vector<SurfacePair> pairs;
     for (size_t i = 0; i < stands.size(); ++i)
-        for (size_t j = i + 1; j < stands.size(); ++j) {
-            if (!boxes[i].touches(boxes[j])) continue;
-            Box shared{glm::max(boxes[i].low, boxes[j].low), glm::min(boxes[i].high, boxes[j].high)};
+        for (size_t j : neighbours[i]) {
+            if (j < i) continue;
+            const Box shared{glm::max(boxes[i].low, boxes[j].low), glm::min(boxes[i].high, boxes[j].high)};
             SurfacePair pair{stands[i], stands[j], {}, {}, {}, {}};
-            for (size_t k = 0; k < stands.size(); ++k)
-                if (k != i && k != j && boxes[k].touches(shared)) pair.others.push_back(stands[k]);
+            for (size_t k : neighbours[i])
+                if (k != j && boxes[k].touches(shared)) pair.others.push_back(stands[k]);
             pairs.push_back(std::move(pair));
         }
     return pairs;
+}
+
+// Pairs are sorted by these.
+std::pair<uint32_t, uint32_t> instancesOf(const SurfacePair& pair) {
+    return {instanceOf(pair.a.id), instanceOf(pair.b.id)};
+}
+
+// The pair as it stands among others; null: it doesn't, or otherwise.
+const SurfacePair* sameIn(const std::vector<SurfacePair>& sorted, const SurfacePair& pair) {
+    const auto at = std::ranges::lower_bound(sorted, instancesOf(pair), {}, instancesOf);
+    const bool same = at != sorted.end() && at->a == pair.a && at->b == pair.b && at->others == pair.others;
+    return same ? &*at : nullptr;
 }
 
 Status find(EspContext& context, SurfacePair& pair) {
@@ -100,7 +132,7 @@ bool buriedByOthers(const EspContext& context, const PlantedSeed& seed) {
 
 Status refreshContacts(EspContext& context) {
     const auto start = std::chrono::steady_clock::now();
-    if (!context.moved.empty()) context.moved.resize(context.surfaceSlots());
+    context.surfaceChanges.resize(context.surfaceSlots());
     std::vector<Stand> stands;
     std::vector<Box> boxes;
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
@@ -110,16 +142,11 @@ Status refreshContacts(EspContext& context) {
     });
     // Nothing changes for surfaces of which no pair came, went or is found anew.
     const auto touch = [&](const SurfacePair& pair) { context.touched.insert({pair.a.id, pair.b.id}); };
-    const auto in = [](std::vector<SurfacePair>& some, const SurfacePair& pair) {
-        return std::ranges::find_if(
-            some, [&](const SurfacePair& p) { return p.a == pair.a && p.b == pair.b && p.others == pair.others; });
-    };
     std::vector<SurfacePair> pairs = pairsOf(stands, boxes);
     for (const SurfacePair& pair : context.pairs)
-        if (in(pairs, pair) == pairs.end()) touch(pair);
+        if (!sameIn(pairs, pair)) touch(pair);
     for (SurfacePair& pair : pairs) {
-        const auto known = in(context.pairs, pair);
-        if (known != context.pairs.end()) {
+        if (const SurfacePair* known = sameIn(context.pairs, pair)) {
             pair.found = known->found, pair.hiddenOfA = known->hiddenOfA, pair.hiddenOfB = known->hiddenOfB;
             continue;
         }
@@ -152,7 +179,7 @@ Status refreshContacts(EspContext& context) {
         if (!status || (same(wanted, surface.contacts) && buried == surface.buried)) return;
         status = surface.gpu.addCrossings(*context.device, surface.data, wanted, buried);
         if (!status) return;
-        if (buried != surface.buried && !context.moved.empty()) context.moved[surface.instance] = true;
+        context.surfaceChanges[surface.instance] = SurfaceChange::ground;
         surface.contacts = std::move(wanted), surface.buried = std::move(buried);
         context.tablesStale = true;
     });

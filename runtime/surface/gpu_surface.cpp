@@ -204,10 +204,14 @@ Status GpuSurface::addCrossings(Device& device, const SurfaceData& base, std::sp
     return Done{};
 }
 
+float scaleOf(const glm::mat4& toWorld) {
+    return float(std::cbrt(std::abs(glm::determinant(glm::dmat3(glm::mat3(toWorld))))));
+}
+
 void placeSurface(SurfaceRef& ref, const glm::mat4& toWorld) {
     for (int row = 0; row < 3; ++row)
         ref.toWorld[row] = glm::vec4(toWorld[0][row], toWorld[1][row], toWorld[2][row], toWorld[3][row]);
-    ref.scale = float(std::cbrt(std::abs(glm::determinant(glm::dmat3(glm::mat3(toWorld))))));
+    ref.scale = scaleOf(toWorld);
 }
 
 }  // namespace espalier

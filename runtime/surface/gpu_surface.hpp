@@ -46,6 +46,8 @@ class GpuSurface {
     SurfaceRef listed_{};                         // ref_ with the addresses in lists_
 };
 
+// The even scale of a placement, as growth reads it.
+float scaleOf(const glm::mat4& toWorld);
 // Puts a placement into a surface's record: rows of the matrix, and its even scale.
 void placeSurface(SurfaceRef& ref, const glm::mat4& toWorld);
 

@@ -70,18 +70,19 @@ BUFFER(AgainStateBuf, AgainState)
 // AgainState::edits, words: 0 dirty layers (bits), 1 first word of the seeds' new indices (0: seeds are the same;
 // kNoIndex: gone), 2 first word of what has changed of each grammar, as Chunk::uses (0: nothing), 3 first word of the
 // branches that are cut away or grow again (0: none): their number, then their keys as isAmong() takes them, 4 first
-// word of a grammar's word each that isn't 0 where what its branches draw on spans is another (0: none); then one
-// word for each of 256 instances: where its dirty tiles begin (0: none). These are bits y * side + x of grids of side
-// 256, 128, … 1, each beginning with a new word, where reads may have changed; and then cells whose texels have, of side
-// kLayerCells. The word before them is the box
-// around the dirty ones of side 256: bits 7..0 least x, 15..8 least y, 23..16 most x, 31..24 most y.
+// word of a grammar's word each that isn't 0 where what its branches draw on spans is another (0: none), 5 the number of
+// instances up to the last one with dirty tiles; then a word for each of these: where its dirty tiles begin (0: none).
+// These are bits y * side + x of grids of side 256, 128, … 1, each beginning with a new word, where reads may have
+// changed; and then cells whose texels have, of side kLayerCells. The word before them is the box around the dirty ones
+// of side 256: bits 7..0 least x, 15..8 least y, 23..16 most x, 31..24 most y.
 CONST_UINT(kEditLayers, 0u);
 CONST_UINT(kEditSeeds, 1u);
 CONST_UINT(kEditUses, 2u);
 CONST_UINT(kEditPruned, 3u);
 CONST_UINT(kEditExtrudes, 4u);
 CONST_UINT(kEditInstances, 5u);
-CONST_UINT(kEditHead, 261u);
+CONST_UINT(kEditHead, 6u);
+CONST_UINT(kEditGrids, kEditHead);   // [instance]
 // First word of the grid of a level, and (level 9) of the cells.
 FN uint dirtyGrid(uint level) {
     uint at = 0u;

@@ -133,7 +133,7 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower
     uint flags = kChunkPublished | (g.reads.beyond ? kChunkBeyond : 0u);
     flags = flags | (g.progress.phase == kPhaseDead ? kChunkDeadEnd : 0u) | (g.progress.phase == kPhaseStopped ? kChunkStopped : 0u);
     flags = flags | (g.progress.phase == kPhaseDead && g.step.turnedBack ? kChunkTurnedBack : 0u);
-    c.marks = (site.sceneLayers << 16u) | (g.progress.count << 8u) | flags;
+    c.marks = (site.sceneLayers << 16u) | (g.progress.count << 8u) | readLevelMarks(g.reads.level) | flags;
     c.uses = g.reads.uses;
     c.firstChild = kNoIndex;
     c.nextSibling = joinSiblings(env, item, site.chunk);

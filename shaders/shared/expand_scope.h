@@ -80,10 +80,9 @@ FN void notePlace(INOUT(ReadSet) r, uint instance, vec2 uv) {
     }
 }
 
-// Word i of Chunk::reads.
+// Word i of Chunk::reads. The level goes to Chunk::marks.
 FN uint readWord(ReadSet r, uint i) {
-    uint head = (r.instance & 255u) | (r.level << 8u);
-    uint low = i == 0u ? head : i == 1u ? r.tile1 : r.tile3;
+    uint low = i == 0u ? r.instance : i == 1u ? r.tile1 : r.tile3;
     uint high = i == 0u ? r.tile0 : i == 1u ? r.tile2 : r.tile4;
     return (low & 0xFFFFu) | (high << 16u);
 }

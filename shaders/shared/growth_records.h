@@ -107,8 +107,8 @@ struct BranchRecord {
 };
 STATIC_SIZE(BranchRecord, 16);
 
-// Chunk::marks: bits 31..16 layers that were read, 15..8 number of nodes, 7..0 flags, of which 2 and 4 may be set in
-// plants that were frozen long ago; 0: there is no such chunk any more
+// Chunk::marks: bits 31..16 layers that were read, 15..14 and 2..1 the level of the read set, 13..8 number of nodes, 7..3
+// and 0 flags; 0: there is no such chunk any more
 CONST_UINT(kChunkPublished, 1u);
 CONST_UINT(kChunkStopped, 8u);      // a limit ended it (counted in the stats)
 CONST_UINT(kChunkDeadEnd, 16u);     // its ground isn't there, or no direction served
@@ -116,11 +116,15 @@ CONST_UINT(kChunkBeyond, 32u);      // it read at places that are none of its no
 CONST_UINT(kChunkTurnedBack, 64u);  // a dead end where of some direction the condition didn't hold
 
 // The read set: where the chunk read layers, failed directions and terminals included. kReadTiles tiles, which cover
-// the walk's UV by kLayerTiles >> level along either side.
-//   word 0 bits 7..0 surface instance, 11..8 level (above kMaxReadLevel: anywhere); then in halves from there on, lower
-//   ones first, tiles: bits 15..8 y, 7..0 x; 0xFFFF: unused
+// the walk's UV by kLayerTiles >> level along either side. The level stands in Chunk::marks, since the words are full;
+// above kMaxReadLevel the chunk may have read anywhere.
+//   word 0 bits 15..0 surface instance; then in halves from there on, lower ones first, tiles: bits 15..8 y, 7..0 x;
+//   0xFFFF: unused
 CONST_UINT(kReadTiles, 5u);
 CONST_UINT(kMaxReadLevel, 8u);
+CONST_UINT(kReadLevelBits, 0xC006u);   // of Chunk::marks
+FN uint readLevelMarks(uint level) { return ((level & 3u) << 1u) | ((level & 12u) << 12u); }
+FN uint readLevelOf(uint marks) { return ((marks >> 1u) & 3u) | ((marks >> 12u) & 12u); }
 
 // 112 bytes. A chunk may be without nodes: its first step failed, and what it read says when to try again.
 struct Chunk {
@@ -144,7 +148,7 @@ struct Chunk {
 };
 STATIC_SIZE(Chunk, 112);
 RECORD_ACCESS(Chunk)
-FN uint chunkNodes(uint marks) { return (marks >> 8u) & 255u; }
+FN uint chunkNodes(uint marks) { return (marks >> 8u) & 63u; }
 
 // What the pass over nodes needs of a chunk.
 struct ChunkBrief {

@@ -99,7 +99,7 @@ Leaf -> S(0.01 + 0.1 * mask(texCoord)) Shape("leaf")
 
 // Whether the tile of a place is among those that the chunk has read.
 bool hasRead(const Chunk& chunk, glm::vec2 uv) {
-    const uint32_t level = (chunk.reads[0] >> 8) & 15;
+    const uint32_t level = readLevelOf(chunk.marks);
     if (level > kMaxReadLevel) return true;
     const glm::uvec2 tile = glm::min(glm::uvec2(uv * float(kLayerTiles)), kLayerTiles - 1) >> level;
     bool found = false;

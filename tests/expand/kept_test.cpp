@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
+#include "runtime/core/hash.hpp"
 #include "shaders/shared/exact.h"
 #include "shaders/shared/random.h"
 #include "tests/expand/session.hpp"
@@ -93,6 +95,25 @@ TEST_CASE("branches that go and come back, over and over, leave no more than thr
     }
 }
 
+namespace {
+
+// A plant's file as it was when read sets named an instance by 8 bits and had their level beside it.
+std::vector<std::byte> packedBefore(const PlantRecords& plant) {
+    constexpr size_t kHead = 32, kHash = 24;
+    std::vector<std::byte> bytes = packPlant(plant);
+    for (size_t i = 0; i < plant.chunks.size(); ++i) {
+        Chunk chunk = plant.chunks[i];
+        chunk.marks |= 6;
+        chunk.reads[0] = 0xFFFF0907;
+        std::memcpy(bytes.data() + kHead + plant.nodes.size() * sizeof(Node) + i * sizeof chunk, &chunk, sizeof chunk);
+    }
+    const uint64_t hash = hashBytes(std::span(bytes).subspan(kHead));
+    std::memcpy(bytes.data() + kHash, &hash, sizeof hash);
+    return bytes;
+}
+
+}  // namespace
+
 TEST_CASE("a frozen plant stands as it was through every edit, and grows from what is there when it thaws") {
     Session s(ball());
     s.scene.plantMany(12, 0, 1);
@@ -158,6 +179,11 @@ TEST_CASE("a frozen plant stands as it was through every edit, and grows from wh
     const std::vector<std::byte> bytes = packPlant(*s.scene.frozen[0].records);
     Result<PlantRecords> again = unpackPlant(bytes, 1);
     REQUIRE(again);
+    CHECK(packPlant(*again) == bytes);
+    // A file of before, whose chunks hold what they have read as it was written then.
+    Result<PlantRecords> old = unpackPlant(packedBefore(*again), 1);
+    REQUIRE(old);
+    CHECK(packPlant(*old) == bytes);
     s.scene.frozen[0].records = std::make_shared<PlantRecords>(std::move(*again));
     check();
     s.growth = s.gpu.growth({64, 64, 64, 64, 64});

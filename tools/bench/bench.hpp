@@ -65,6 +65,7 @@ void placeCases(Bench& bench);
 void bakeCases(Bench& bench);
 void atlasCases(Bench& bench);
 void contactCases(Bench& bench);
+void moveCases(Bench& bench);
 void paintCases(Bench& bench);
 void surfaceCases(Bench& bench);
 void lodCases(Bench& bench);

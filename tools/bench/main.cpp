@@ -25,7 +25,7 @@ int measureAsAsked(int argc, char** argv) {
     app.set_version_flag("--version", ESPALIER_VERSION);
     app.add_option("--filter", options.filter,
                    "only cases whose name contains this: growth/, edit/, emit/, frame/, render/, paint/, bake/, "
-                   "surface/, contact/, roof/");
+                   "surface/, contact/, move/, roof/");
     app.add_option("--csv", csv, "also write the rows to this file");
     app.add_option("--data", options.dataFolder, "folder of further models")->capture_default_str();
     app.add_option("--modules", options.modulesFolder,
@@ -47,6 +47,7 @@ int measureAsAsked(int argc, char** argv) {
     bakeCases(bench);
     atlasCases(bench);
     contactCases(bench);
+    moveCases(bench);
     paintCases(bench);
     surfaceCases(bench);
     lodCases(bench);
