@@ -39,16 +39,16 @@ Result<BoundGrowth> BoundGrowth::create(Device& device, const Terminals& termina
     BoundGrowth out;
     out.device_ = &device;
     out.terminals_ = &terminals;
-    Status programs =
-        makeCompute(device, {{out.bindSpans_, "emit/bind_spans.comp", exactly()},
-                             {out.bindLeaves_, "emit/bind_leaves.comp", exactly()},
-                             {out.bindTouch_, "emit/bind_touch.comp"},
-                             {out.bindStretches_, "emit/bind_stretches.comp", exactly()},
-                             {out.bindKeep_, "emit/bind_keep.comp", {.constants = {{kConstantLanes, cellLanes(device)}}}},
-                             {out.bindCount_, "emit/bind_count.comp", exactly()},
-                             {out.bindCells_, "emit/bind_cells.comp"},
-                             {out.bindOrder_, "emit/bind_order.comp"},
-                             {out.bindSort_, "emit/bind_sort.comp", {.constants = {{kConstantLanes, sortLanes(device)}}}}});
+    Status programs = makeCompute(
+        device, {{out.bindSpans_, "emit/bind_spans.comp", exactly()},
+                 {out.bindLeaves_, "emit/bind_leaves.comp", exactly()},
+                 {out.bindTouch_, "emit/bind_touch.comp"},
+                 {out.bindStretches_, "emit/bind_stretches.comp", exactly()},
+                 {out.bindKeep_, "emit/bind_keep.comp", {.constants = {{kConstantLanes, cellLanes(device)}}}},
+                 {out.bindCount_, "emit/bind_count.comp", exactly()},
+                 {out.bindCells_, "emit/bind_cells.comp"},
+                 {out.bindOrder_, "emit/bind_order.comp"},
+                 {out.bindSort_, "emit/bind_sort.comp", {.constants = {{kConstantLanes, sortLanes(device)}}}}});
     if (!programs) return programs.failure();
     if (Status s = allDone({makeRoom(device, out.cells_, "emit cells", (kAllCells + 1) * sizeof(EmitCell)),
                             makeRoom(device, out.bins_, "emit bins", kAllCells * kCellBins * 4ull)});

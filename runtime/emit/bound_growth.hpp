@@ -94,7 +94,8 @@ class BoundGrowth {
 
     Device* device_ = nullptr;
     const Terminals* terminals_ = nullptr;
-    Program bindTouch_, bindSpans_, bindLeaves_, bindStretches_, bindKeep_, bindCount_, bindCells_, bindOrder_, bindSort_;
+    Program bindTouch_, bindSpans_, bindLeaves_, bindStretches_, bindKeep_, bindCount_, bindCells_, bindOrder_,
+        bindSort_;
     struct Carrying {
         Program spans, leaves, cells;
     };

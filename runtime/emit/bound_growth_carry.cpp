@@ -18,7 +18,8 @@ bool BoundGrowth::nearlyCrowded(const EmitState& counted) const {
 Status BoundGrowth::makeCarrying(bool moved) {
     Carrying& c = carrying_[moved];
     if (c.cells) return Done{};
-    const ProgramOptions options{.constants = {{kConstantMoved, moved ? 1u : 0u}, {kConstantLanes, cellLanes(*device_)}}};
+    const ProgramOptions options{
+        .constants = {{kConstantMoved, moved ? 1u : 0u}, {kConstantLanes, cellLanes(*device_)}}};
     return makeCompute(*device_, {{c.spans, "emit/carry_spans.comp", options},
                                   {c.leaves, "emit/carry_leaves.comp", options},
                                   {c.cells, "emit/carry_cells.comp", options}});

@@ -125,7 +125,8 @@ class Growth {
     // Memory of the lanes of the march's widest wave and of a pass over all nodes, as far as there is room for them.
     uint64_t laneBytes() const {
         const uint64_t march = laneGroupsOf(room_.items, kItemsPerGroupAgain) * uint64_t(kLaneWords);
-        const uint64_t nodes = std::max(laneGroupsOf(room_.nodes, kNodesPerGroup), spreadGroups()[0]) * uint64_t(kSlotWords);
+        const uint64_t nodes =
+            std::max(laneGroupsOf(room_.nodes, kNodesPerGroup), spreadGroups()[0]) * uint64_t(kSlotWords);
         return std::max(march, nodes) * kExpandGroup * 4;
     }
     const Program& kernel(GrowthKernel kernel) const { return kernels_.get(kernel, tablesByAddress_); }

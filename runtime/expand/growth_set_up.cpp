@@ -185,9 +185,9 @@ uint64_t Growth::reserved() const {
     uint64_t bytes = 0;
     for (const Plants& p : plants_.sets) bytes += p.nodes.size() + p.leaves.size();
     for (const Links& l : links_.sets) bytes += l.chunks.size() + l.branches.size();
-    for (const Buffer* b :
-         {&items_[0], &items_[1], &lanes_, &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_, &density_, &again_,
-          &marks_, &lists_, &edits_, &results_, &firstLeaves_, &nextLeaves_, &touched_, &nodesWent_, &leavesWent_})
+    for (const Buffer* b : {&items_[0], &items_[1],    &lanes_,      &status_,  &pruned_,    &waves_,     &grammars_,
+                            &tables_,   &noTables_,    &density_,    &again_,   &marks_,     &lists_,     &edits_,
+                            &results_,  &firstLeaves_, &nextLeaves_, &touched_, &nodesWent_, &leavesWent_})
         bytes += b->size();
     return bytes;
 }

@@ -105,7 +105,8 @@ void fit(ExpandEnv env, Crew& crew) {
     overRange(0, listed(env, kListFit), kEntriesAtOnce, crew, [&](size_t begin, size_t end) {
         ChunkBrief briefs[kEntriesAtOnce];
         const size_t count = end - begin;
-        for (size_t i = 0; i < count; ++i) briefs[i] = readChunkBrief(env.chunks, listEntry(env, kListFit, uint32_t(begin + i)));
+        for (size_t i = 0; i < count; ++i)
+            briefs[i] = readChunkBrief(env.chunks, listEntry(env, kListFit, uint32_t(begin + i)));
         uvec2 hash(0, 0);
         for (size_t i = 0; i < count + kAhead; ++i) {
             if (i < count) fetch(env.nodes.v + briefs[i].firstNode, chunkNodes(briefs[i].marks));

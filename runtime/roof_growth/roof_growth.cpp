@@ -46,11 +46,11 @@ Status RoofGrowth::makeKernels(const RuleMap& grammar, bool fetches) {
     if (derive_ && kind == kind_) return Done{};
     kind_ = kind;
     derive_ = {};
-    return makeCompute(device_,
-                       {{derive_, "roof_growth/derive.comp",
-                         exactly({{kConstantTablesByAddress, kind.mapByAddress},
-                                  {kConstantRoofUses, kind.uses},
-                                  {kConstantRecordsByAddress, kind.recordsByAddress}}), kRoofGroup}});
+    return makeCompute(device_, {{derive_, "roof_growth/derive.comp",
+                                  exactly({{kConstantTablesByAddress, kind.mapByAddress},
+                                           {kConstantRoofUses, kind.uses},
+                                           {kConstantRecordsByAddress, kind.recordsByAddress}}),
+                                  kRoofGroup}});
 }
 
 RoofEnv RoofGrowth::environment(const RoofInputs& inputs, const Set& set) const {

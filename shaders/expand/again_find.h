@@ -62,7 +62,7 @@ FN bool readsDirty(ExpandEnv env, UintBuf edits, uint chunk, ChunkReads r, uint 
 // The head of AgainState::edits.
 struct EditHead {
     UintBuf edits;
-    uint layers, seeds, uses, pruned, extrudes;
+    uint layers, seeds, uses, pruned, extrudes, instances;
 };
 FN EditHead editHead(ExpandEnv env) {
     EditHead head;
@@ -72,16 +72,18 @@ FN EditHead editHead(ExpandEnv env) {
     head.uses = head.edits.v[kEditUses];
     head.pruned = head.edits.v[kEditPruned];
     head.extrudes = head.edits.v[kEditExtrudes];
+    head.instances = head.edits.v[kEditInstances];
     return head;
 }
 
 FN void findChunk(ExpandEnv env, EditHead head, uint c) {
     ChunkReads r = readReads(env, c);
     if (r.marks == 0u) return;
-    uint level = (r.words[0] >> 8u) & 15u;
+    uint level = readLevelOf(r.marks);
     bool dirty = false;
     if (((r.marks >> 16u) & head.layers) != 0u) {
-        uint grid = head.edits.v[kEditInstances + (r.words[0] & 255u)];
+        uint instance = r.words[0] & 0xFFFFu;
+        uint grid = instance < head.instances ? head.edits.v[kEditGrids + instance] : 0u;
         bool near = grid != 0u ? readsNear(r, head.edits.v[grid - 1u], level) : level > kMaxReadLevel;
         if (near) dirty = readsDirty(env, head.edits, c, r, grid, level);
     }

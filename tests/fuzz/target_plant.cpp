@@ -1,5 +1,5 @@
-// In: bytes. Out: nothing, if all goes well; a plant that is accepted packs to the same bytes and can be grown on:
-// another one beside it can be taken out, the gaps be closed, and what is left be bound for drawing.
+// In: bytes. Out: nothing, if all goes well; a plant that is accepted packs to as many bytes, which say the same, and
+// can be grown on: another one beside it can be taken out, the gaps be closed, and what is left be bound for drawing.
 #include <algorithm>
 #include <cstring>
 #include <vector>
@@ -104,7 +104,10 @@ void bind(GrowthRecords& records) {
 void check(std::span<const std::byte> bytes) {
     auto plant = unpackPlant(bytes, kSurfaces);
     if (!plant) return checkMessage(plant.failure());
-    require(std::ranges::equal(packPlant(*plant), bytes), "a plant packs to what it was");
+    // Files of before hold read sets, which are left out.
+    const std::vector<std::byte> packed = packPlant(*plant);
+    const auto again = unpackPlant(packed, kSurfaces);
+    require(packed.size() == bytes.size() && again && packPlant(*again) == packed, "a plant packs to what it was");
     const auto records = std::make_shared<const PlantRecords>(std::move(*plant));
     const FrozenPlant twice[] = {{1, records}, {2, records}};
     GrowthRecords both = sumOf(twice, 5).records;

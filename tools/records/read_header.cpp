@@ -13,10 +13,11 @@ std::string trimmed(std::string_view text) {
     return first == std::string_view::npos ? "" : std::string(text.substr(first, last - first + 1));
 }
 
-// "16", "16u", "1u << 4u" aren't all needed: sizes of arrays are plain numbers, or names of such.
+// "16" or "16u": sizes of arrays are such numbers, or names of such.
 bool plainNumber(std::string_view text, uint32_t& value) {
+    if (text.ends_with('u')) text.remove_suffix(1);
     const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return wrong == std::errc() && (end == text.data() + text.size() || std::string_view(end) == "u");
+    return wrong == std::errc() && end == text.data() + text.size();
 }
 
 struct Reader {
