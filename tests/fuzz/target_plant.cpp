@@ -106,7 +106,7 @@ void check(std::span<const std::byte> bytes) {
     if (!plant) return checkMessage(plant.failure());
     // Files of before hold read sets, which are left out.
     const std::vector<std::byte> packed = packPlant(*plant);
-    const auto again = unpackPlant(packed, kSurfaces);
+    auto again = unpackPlant(packed, kSurfaces);
     require(packed.size() == bytes.size() && again && packPlant(*again) == packed, "a plant packs to what it was");
     const auto records = std::make_shared<const PlantRecords>(std::move(*plant));
     const FrozenPlant twice[] = {{1, records}, {2, records}};
