@@ -17,9 +17,7 @@ TEST_CASE("a surface that touches nothing comes and goes, and nothing is derived
     for (const bool shadersOnly : {false, true}) {
         CAPTURE(shadersOnly);
         const Painting painting;
-        EspGrowDef grow = espDefaultGrowDef();
-        grow.shadersOnly = shadersOnly;
-        painting.ok(espSetGrow(painting.context, &grow));
+        painting.growBy(shadersOnly);
         const EspGrammar grammar = painting.grammar(kMaskedIvy);
         painting.plant(grammar, kFoot, kUp);
         painting.plant(grammar, {0, -.8f, 1}, kUp, 2);

@@ -97,6 +97,13 @@ struct Painting {
         ok(espEndStroke(context, stroke));
         return stroke;
     }
+    // Returns what it has set.
+    EspGrowDef growBy(bool shadersOnly) const {
+        EspGrowDef grow = espDefaultGrowDef();
+        grow.shadersOnly = shadersOnly;
+        ok(espSetGrow(context, &grow));
+        return grow;
+    }
     EspGrammar grammar(const char* text) const {
         EspGrammarDef def{"paint test", text, std::string(text).size()};
         EspGrammar grammar{};

@@ -53,9 +53,7 @@ TEST_CASE("a surface that moves by itself takes its plants along, and nothing is
     for (const bool shadersOnly : {false, true}) {
         CAPTURE(shadersOnly);
         const Painting painting;
-        EspGrowDef grow = espDefaultGrowDef();
-        grow.shadersOnly = shadersOnly;
-        painting.ok(espSetGrow(painting.context, &grow));
+        EspGrowDef grow = painting.growBy(shadersOnly);
         const EspGrammar grammar = painting.grammar(kMaskedIvy);
         painting.another(movedBy(kAway));
         painting.plant(grammar, kFoot + kAway, kUp, 1);
