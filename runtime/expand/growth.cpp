@@ -25,8 +25,6 @@ GrowStatus withFrozen(GrowStatus status, const FrozenSum& frozen) {
     status.nodeCapacity += status.nodes;
     status.branchCapacity += status.branches;
     status.leafCapacity = std::min(status.leafCapacity + status.leaves, status.mostLeaves);
-    status.nodeGroups[0] = r.nodes.empty() ? 0 : 1;
-    status.branchGroups[0] = r.branches.empty() ? 0 : 1;
     status.steps = frozen.steps;
     status.inserted = frozen.inserted;
     status.stopped = frozen.stopped;
@@ -64,14 +62,17 @@ Status Growth::uploadInputs(Commands& commands, const GrowthInputs& inputs, cons
 
 void Growth::recordWaves(Pass& pass, const Program& march, const ExpandEnv& base, uint32_t first, uint32_t last) {
     ExpandEnv env = base;
-    stats_.dispatches += last - first;
+    const uint32_t rounds = (room_.items + kDispatchItems - 1) / kDispatchItems;
+    stats_.dispatches += (last - first) * rounds;
     for (uint32_t w = first; w < last; ++w) {
         env.wave = w;
         env.items = addressOf<WorkItemBuf>(items_[w & 1]);
         env.nextItems = addressOf<WorkItemBuf>(items_[(w + 1) & 1]);
         const uint64_t groups = w * sizeof(Wave) + offsetof(Wave, groups);
-        pass.dispatchIndirect(march, waves_, groups, env, {uniformTables(), lanes_});
-        pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect);
+        for (uint32_t r = 0; r < rounds; ++r) {
+            pass.dispatchIndirect(march, waves_, groups, env, {uniformTables(), lanes_});
+            pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect);
+        }
     }
 }
 

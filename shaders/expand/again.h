@@ -11,6 +11,12 @@ ESPALIER_BEGIN
 #define AGAIN_LISTS AGAIN.lists
 #define AGAIN_MARKS AGAIN.marks
 #define AGAIN_CAPACITY AGAIN.listCapacity
+#elif defined(ESPALIER_LANES)
+// Read each time, so that the march's registers are free for the walk.
+#define AGAIN AgainStateBuf(env.status.v[0].again).v[0]
+#define AGAIN_LISTS AGAIN.lists
+#define AGAIN_MARKS AGAIN.marks
+#define AGAIN_CAPACITY AGAIN.listCapacity
 #else
 // Kept at hand from openAgain() on, the first thing that a kernel does: what is read by address costs each time.
 AgainStateBuf againState;

@@ -16,6 +16,17 @@ FN uint joinSiblings(ExpandEnv env, WorkItem item, uint chunk) {
     return item.parent == kNoIndex ? kNoIndex : atomicExchange(env.chunks.v[item.parent].firstChild, chunk);
 }
 
+// Passes of a regrowth go through lists by themselves.
+FN void askNodeGroups(ExpandEnv env, uint first, uint count) {
+    UNUSED(env);
+    UNUSED(first);
+    UNUSED(count);
+}
+FN void askBranchGroups(ExpandEnv env, uint branch) {
+    UNUSED(env);
+    UNUSED(branch);
+}
+
 // A branch whose first chunk is grown again stays the same.
 FN uint claimBranch(ExpandEnv env, uint chunk) {
     if ((AGAIN_MARKS.v[chunk].bits & kMarkAgain) != 0u) {

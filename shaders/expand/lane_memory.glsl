@@ -1,6 +1,7 @@
 // What a lane of the march keeps in its memory while it walks.
 #ifndef ESPALIER_EXPAND_LANE_MEMORY_GLSL
 #define ESPALIER_EXPAND_LANE_MEMORY_GLSL
+#define ESPALIER_LANES
 #define LANE_SLOTS kLaneSlots
 #define LANE_WORDS kLaneWords
 #include "shaders/expand/lane_slots.glsl"   // before what uses slots
@@ -20,6 +21,12 @@ GrowthSite laneSite() {
     FILL_GrowthSite(s, LANE_WORD, kLaneSite)
     return s;
 }
+GrowthTally laneTally() {
+    GrowthTally t = {};
+    FILL_GrowthTally(t, LANE_WORD, kLaneTally)
+    return t;
+}
+void keepTally(GrowthTally t) { KEEP_GrowthTally(t, LANE_WORD, kLaneTally) }
 // All but its walks; compilers leave out what nobody asks for.
 Grower laneGrower() {
     Grower g = {};

@@ -90,7 +90,7 @@ void decide() {
 
 void march() {
     WalkState trial = {};
-    float remaining = {};
+    float remaining = 0.0f;
     if (LANE_WORD(kLaneStep + kStepState_fresh) != 0u) {
         Grower g = laneGrower();
         setOut(g);
@@ -102,7 +102,7 @@ void march() {
         trial = laneWalk(kLaneTrial);
         remaining = uintBitsToFloat(LANE_WORD(kLaneRemaining));
     }
-    vec3 normal = {};
+    vec3 normal = vec3(0.0f);
     uint event = advanceWalk(env, LANE_WORD(kLaneSite + kGrowthSite_level), trial, remaining, normal);
     keepWalk(trial, kLaneTrial);
     LANE_WORD(kLaneRemaining) = floatBitsToUint(remaining);
@@ -129,9 +129,9 @@ void end() {
     c.g = laneGrower();
     c.site = laneSite();
     c.item = readWorkItem(env.items, LANE_WORD(kLaneItem));
-    GrowthTally tally = emptyTally();
+    GrowthTally tally = laneTally();
     endChunk(env, c, tally);
-    addTally(env, tally);
+    keepTally(tally);
 }
 
 void main() {
@@ -140,20 +140,19 @@ void main() {
     uint count = min(wanted, env.itemCapacity);
     if (wanted > count) atomicMax(env.status.v[0].items, wanted);
     bool more = env.waves.v[env.wave].taken < count;   // groups come late to what others have taken
-#ifdef ESPALIER_AGAIN
-    openAgain(env);
-#endif
+    keepTally(emptyTally());
+    LANE_WORD(kLaneTaken) = 0u;
     bool live = false;   // the lane has a chunk,
     bool grows = false;  // which hasn't ended
-    uint taken = 0u;
     while (subgroupAny(live || more)) {
         if (!live && more) {
             uint i = atomicAdd(env.waves.v[env.wave].taken, 1u);
             bool there = i < count;
             if (there) live = begin(i);
             grows = live && phaseNow() <= kPhaseMarch;
-            taken = taken + 1u;
-            more = there && (taken < kMostTaken || count > kLaneGroups * kItemsPerGroup);
+            uint taken = LANE_WORD(kLaneTaken) + 1u;
+            LANE_WORD(kLaneTaken) = taken;
+            more = there && taken < kMostTaken;
         }
         uint few = subgroupAny(more) ? min(gl_SubgroupSize, gl_WorkGroupSize.x) / 2u : 0u;
         uint busy = few + 1u;
@@ -166,4 +165,5 @@ void main() {
             live = false;
         }
     }
+    addTally(env, laneTally());
 }

@@ -20,7 +20,7 @@ bool placeAlong(WalkState w, float metres, out vec2 uv) {
     if (length2(step) < w.clear) return true;
     float remaining = metres;
     uint event = kWalkRetry;
-    vec3 normal = {};
+    vec3 normal = vec3(0.0f);
     while (walkGoesOn(event)) event = walkAdvance(env.surfaces, 0u, w, remaining, normal);
     uv = w.walk.uv;
     // Another surface's layer is another's; what this one has is read.

@@ -2,6 +2,7 @@
 #ifndef ESPALIER_SHARED_EXPAND_ENV_H
 #define ESPALIER_SHARED_EXPAND_ENV_H
 #include "records/growth_records.h"
+#include "records/staged_sample.h"
 #include "shaders/shared/rule_map.h"
 
 ESPALIER_BEGIN
@@ -23,7 +24,7 @@ CONST_UINT(kLeafPending, 1u << 31u);   // of Leaf::node: not to be drawn yet
 struct GrowStatus {
     uint chunks, nodes, branches, leaves;                                     // taken
     uint chunkCapacity, nodeCapacity, branchCapacity, leafCapacity;
-    uint nodeGroups[3];      // VkDispatchIndirectCommand over the nodes
+    uint nodeGroups[3];      // VkDispatchIndirectCommand over the nodes that aren't frozen
     uint branchGroups[3];    // the same over the branches
     uint items;              // most items that a wave asked for, where that was too many
     uint steps, inserted, stopped, deadEnds, lost;
@@ -84,11 +85,22 @@ CONST_UINT(kMostGroups, 65535u);        // of a dispatch
 // Of passes whose lanes have memory of their own (lane_slots.glsl): as many as a large GPU holds at a time.
 CONST_UINT(kLaneGroups, 1792u);
 CONST_UINT(kLanesBeside, 8u);           // lanes that have theirs side by side
-CONST_UINT(kLaneSlots, 120u);           // words of that memory where the machine's slots begin, and the chunk's samples
+CONST_UINT(kLaneSlots, 128u);           // words of that memory where the machine's slots begin, and the chunk's samples
 CONST_UINT(kSlotWords, (kMachineSlots + 3u) / 4u * 4u);
 CONST_UINT(kLaneStage, kLaneSlots + kSlotWords);
-CONST_UINT(kLaneWords, kLaneStage + 352u);   // and the samples' words (lane_words.h)
+CONST_UINT(kLaneWords, kLaneStage + kChunkNodes * kStagedSample_words);
+// Some software devices end every loop after some 65,000 trips of all loops of an invocation together: so a chunk ends
+// early after this many of its main loop, and an invocation takes no more items than these.
+CONST_UINT(kMaxTrips, 256u);
+CONST_UINT(kMostTaken, 4u);
+// Items of a wave that one dispatch of the march grows at most: further ones are for another dispatch.
+CONST_UINT(kDispatchItems, kLaneGroups * kExpandGroup * kMostTaken);
 CONST_UINT(kItemsPerGroupAgain, 16u);   // of a regrowth: its few items shall not all go to one thread
+#if defined(ESPALIER_AGAIN) && !defined(__cplusplus)   // native code knows no groups
+CONST_UINT(kItemsPerGroup, kItemsPerGroupAgain);
+#else
+CONST_UINT(kItemsPerGroup, 64u);   // a group is dispatched for so many, fewer an invocation than it may take
+#endif
 
 #ifdef __cplusplus
 // As in kernels, of no order with other memory.

@@ -57,6 +57,15 @@ FN uint previousNodeOf(ExpandEnv env, WorkItem item) {
 FN uint joinSiblings(ExpandEnv env, WorkItem item, uint chunk) {
     return item.parent == kNoIndex ? kNoIndex : atomicExchange(env.chunks.v[item.parent].firstChild, chunk);
 }
+// Groups for the passes over nodes and branches, which leave out those of frozen plants: so these don't count.
+FN void askNodeGroups(ExpandEnv env, uint first, uint count) {
+    uint added = laneGroupsAdded(first - env.status.v[0].frozenNodes, count, kNodesPerGroup);
+    if (added > 0u) atomicAdd(env.status.v[0].nodeGroups[0], added);
+}
+FN void askBranchGroups(ExpandEnv env, uint branch) {
+    uint added = groupsAdded(branch - env.status.v[0].frozenBranches, 1u, kExpandGroup);
+    if (added > 0u) atomicAdd(env.status.v[0].branchGroups[0], added);
+}
 #endif
 
 // Takes a range of nodes, copies what was staged, and returns the first index.
@@ -65,10 +74,7 @@ FN uint publishNodes(ExpandEnv env, uint chunk, uint count) {
     UNUSED(stage);
     uint first = count > 0u ? atomicAdd(env.status.v[0].nodes, count) : 0u;
     bool fits = first + count <= env.status.v[0].nodeCapacity;
-    if (count > 0u) {
-        uint added = laneGroupsAdded(first, count, kNodesPerGroup);
-        if (fits && added > 0u) atomicAdd(env.status.v[0].nodeGroups[0], added);
-    }
+    if (fits && count > 0u) askNodeGroups(env, first, count);
     for (uint i = 0u; i < (fits ? count : 0u); ++i) {
         StagedSample s = {};
         FILL_StagedSample(s, STAGED, i * kStagedSample_words)
@@ -93,8 +99,7 @@ FN uint publishBranch(ExpandEnv env, WorkItem item, GrowthSite site, float lengt
     bool begins = branch == kNoIndex;
     if (begins) {
         branch = claimBranch(env, site.chunk);
-        uint added = groupsAdded(branch, 1u, kExpandGroup);
-        if (added > 0u && branch < env.status.v[0].branchCapacity) atomicAdd(env.status.v[0].branchGroups[0], added);
+        if (branch < env.status.v[0].branchCapacity) askBranchGroups(env, branch);
     }
     if (branch >= env.status.v[0].branchCapacity) return branch;
     if (begins) {
@@ -151,10 +156,6 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower
     pushItem(env, rest, goesOn, g);
 }
 
-// What an invocation has grown, to be added to the counters at its end: each atomic costs.
-struct GrowthTally {
-    uint chunks, nodes, steps, inserted, stopped, deadEnds;
-};
 FN GrowthTally emptyTally() {
     GrowthTally t = {};
     t.chunks = 0u;
@@ -236,12 +237,12 @@ FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth
         atomicAdd(env.status.v[0].stopped, 1u);
         return false;
     }
-    uint chunk = {};
+    uint chunk = 0u;
     if (!claimChunk(env, item, chunk)) return false;
     Walk walk = item.walk;
     bool exists = (walk.place & 0xFFFFu) < env.surfaces.v[walk.place >> 16u].chartCount;
     walk.place = exists ? walk.place : walk.place & 0xFFFF0000u;
-    float texel = {};
+    float texel = 0.0f;
     c.item = item;
     c.g = freshGrower(item);
     c.site.chunk = chunk;

@@ -140,8 +140,8 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
         }
         vec3 across = cross3(t.du, t.dv);
         float area2 = dot3(across, across);
-        float orientation = {};
-        uint coarsest = {};
+        float orientation = 0.0f;
+        uint coarsest = 0u;
         readChart(surfaces, a.place >> 16u, a.place & 0xFFFFu, orientation, coarsest);
         follows = follows && triangle != kNoIndex && area2 > 1e-36f;
         bool ends = !follows;

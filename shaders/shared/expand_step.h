@@ -38,7 +38,7 @@ FN void turnWalk(ExpandEnv env, INOUT(WalkState) w, float angle) {
     }
 }
 FN uint advanceWalk(ExpandEnv env, uint level, INOUT(WalkState) w, INOUT(float) remaining, OUT(vec3) normal) {
-    uint event = {};
+    uint event = 0u;
     if (PAPER_WALK(env)) {
         event = paperAdvance(env.surfaces, level, w, remaining, normal);
     } else {
@@ -51,16 +51,6 @@ FN vec3 headingOf(ExpandEnv env, WalkState w) { return PAPER_WALK(env) ? paperHe
 CONST_FLOAT(kMostTurn, 8000.0f);            // radians; sinCosExact takes little more
 CONST_UINT(kDetours, 10u);                 // directions tried over the semicircle when the heading fails (§8)
 CONST_FLOAT(kDetourAngle, 0.314159265f);   // between two of them on one side: the last ones go across the heading
-
-// Some software devices end every loop after some 65,000 trips of all loops of an invocation together: so a chunk
-// ends early after this many of its main loop, and an invocation takes no more items than these.
-CONST_UINT(kMaxTrips, 256u);
-CONST_UINT(kMostTaken, 4u);
-#if defined(ESPALIER_AGAIN) && !defined(__cplusplus)   // native code knows no groups
-CONST_UINT(kItemsPerGroup, kItemsPerGroupAgain);
-#else
-CONST_UINT(kItemsPerGroup, 64u);           // a group is dispatched for so many items; below kMostTaken an invocation
-#endif
 
 CONST_UINT(kPhaseDerive, 0u);    // a rule is to be found
 CONST_UINT(kPhaseMarch, 1u);     // a step is under way
@@ -289,7 +279,7 @@ FN void marchOn(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
         setOut(g);
         turnWalk(env, g.trial, attemptAngle(g));
     }
-    vec3 normal = {};
+    vec3 normal = vec3(0.0f);
     uint event = advanceWalk(env, site.level, g.trial, g.remaining, normal);
     takeStretch(env, site, g, event, packOct(normal), packOct(headingOf(env, g.trial)));
 }

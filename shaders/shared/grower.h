@@ -69,6 +69,13 @@ struct Grower {
 #define KEEP_STAND(g) (g).at = (g).trial
 #endif
 
+// What an invocation has grown, to be added to the counters at its end: each atomic costs.
+struct GrowthTally {
+    uint chunks, nodes, steps, inserted, stopped, deadEnds;
+};
+RECORD_WORDS(GrowthTally)
+RECORD_OFFSETS(GrowthTally)
+
 // The constants of a chunk's growth.
 struct GrowthSite {
     uint chunk;          // its own index

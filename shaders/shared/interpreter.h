@@ -78,8 +78,8 @@ FN float applyHardOperation(uint op, float x, float y) {
         case kOpSqrt: r = sqrtExact(x); break;
         case kOpSin:
         case kOpCos: {
-            float s = {};
-            float c = {};
+            float s = 0.0f;
+            float c = 0.0f;
             sinCosExact(limited(x, -8000.0f, 8000.0f), s, c);
             r = op == kOpSin ? s : c;
             break;

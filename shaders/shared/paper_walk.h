@@ -174,8 +174,8 @@ FN bool startPaperWalk(SurfaceBuf surfaces, uint level, uint place, vec2 uv, vec
 }
 
 FN void rotatePaperHeading(INOUT(WalkState) w, float angle) {
-    float s = {};
-    float c = {};
+    float s = 0.0f;
+    float c = 0.0f;
     sinCosExact(angle, s, c);
     vec3 d = w.walk.direction;
     w.walk.direction = vec3(d.x * c - d.y * s, d.x * s + d.y * c, 0.0f);
@@ -248,7 +248,7 @@ FN uint paperAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(
 // Walks `length` metres. Returns kWalkDone, kWalkOpen or kWalkLost.
 FN uint paperStep(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, float length) {
     float remaining = length;
-    vec3 jointNormal = {};
+    vec3 jointNormal = vec3(0.0f);
     uint event = kWalkRetry;
     while (walkGoesOn(event)) {
         event = paperAdvance(surfaces, level, w, remaining, jointNormal);

@@ -256,7 +256,7 @@ FN RoofCells cellsOf(RuleRecord rule, RoofNumbers n, RoofScope shape) {
     c.step = shape.size;
     c.x = 1u;
     c.y = 1u;
-    float s = {};
+    float s = 0.0f;
     if ((rule.extrude & kRepeatX) != 0u) {
         c.x = cellCount(shape.size.x, n.v[0], keep, s);
         c.step.x = s;

@@ -117,8 +117,8 @@ FN RoofScope applyScope(RoofNumbers n, RoofScope shape) {
     if (size.x >= 0.0f) shape.size.x = size.x;
     if (size.y >= 0.0f) shape.size.y = size.y;
     if (size.z >= 0.0f) shape.thickness = size.z;
-    float s = {};
-    float c = {};
+    float s = 0.0f;
+    float c = 0.0f;
     if (turn != 0.0f) {
         sinCosExact(limited(turn, -100.0f, 100.0f), s, c);
         vec3 x = shape.axisX * c + shape.axisY * s;

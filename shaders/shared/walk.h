@@ -83,7 +83,7 @@ FN void reachBeyond(SurfaceBuf surfaces, uint level, WalkState w, vec2 delta, Ex
         r.joint = crossingJoint(c.flags);
         uint toChart = c.target & 0xFFFFu;
         r.place = (toInstance << 16u) | toChart;
-        uint coarsest = {};
+        uint coarsest = 0u;
         readChart(surfaces, toInstance, toChart, r.orientation, coarsest);
         r.level = level < coarsest ? level : coarsest;
         // Seen from outside, the far chart lies on the other side of the edge; mirrored UVs swap sides.
@@ -222,7 +222,7 @@ FN uint walkAdvance(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, INOUT(f
 // Walks `length` metres, through everything in between. Returns kWalkDone, kWalkOpen or kWalkLost.
 FN uint walkStep(SurfaceBuf surfaces, uint level, INOUT(WalkState) w, float length) {
     float remaining = length;
-    vec3 jointNormal = {};
+    vec3 jointNormal = vec3(0.0f);
     uint event = kWalkRetry;
     while (walkGoesOn(event)) {
         event = walkAdvance(surfaces, level, w, remaining, jointNormal);

@@ -77,7 +77,7 @@ FN bool resumeWalk(SurfaceBuf surfaces, uint level, Walk walk, OUT(WalkState) w)
     uint chart = walk.place & 0xFFFFu;
     w.walk = walk;
     w.walk.uv = vec2(inRange(walk.uv.x, 1.0f), inRange(walk.uv.y, 1.0f));
-    uint coarsest = {};
+    uint coarsest = 0u;
     readChart(surfaces, instance, chart, w.orientation, coarsest);
     w.level = level < coarsest ? level : coarsest;
     w.limit = 1e30f;
@@ -109,8 +109,8 @@ FN bool startWalk(SurfaceBuf surfaces, uint level, uint place, vec2 uv, vec3 dir
 
 // Turns the heading by `angle` radians, counterclockwise as seen from outside.
 FN void rotateHeading(INOUT(WalkState) w, float angle) {
-    float s = {};
-    float c = {};
+    float s = 0.0f;
+    float c = 0.0f;
     sinCosExact(angle, s, c);
     vec3 side = cross3(w.normal, w.walk.direction);
     w.walk.direction = unit3(w.walk.direction * c + side * s);

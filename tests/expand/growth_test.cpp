@@ -83,7 +83,29 @@ TEST_CASE("several grammars grow in one scene, each seed by its own") {
     CHECK(grammars.size() == 2);
 }
 
-TEST_CASE("tables, surfaces and records read by address grow what those read as uniforms and texels do") {
+TEST_CASE("a wave of more shapes than one dispatch grows is grown whole") {
+    TestDevice gpu(false);
+    auto growth = gpu.growth();
+    Scene scene = Scene::baked(ball());
+    scene.addGrammar(R"(
+Stem -> Marching(0.01, rand(-1, 1), true) {NULL, Bark}
+Bark -> S(0.001) Shape("bark", C1)
+)");
+    constexpr uint32_t kSeeds = kDispatchItems + 1000;
+    for (uint32_t number = 1; scene.seeds().size() < kSeeds; ++number) scene.plantMany(kSeeds / 4, 0, number);
+    GrowthStats stats[2];
+    for (const bool native : {true, false}) {
+        scene.native = native;
+        mustGrow(scene, gpu, *growth);
+        stats[native] = growth->stats();
+        CHECK(stats[native].native == native);
+    }
+    CHECK(stats[0].chunks == scene.seeds().size());
+    CHECK(stats[0].chunks == stats[1].chunks);
+    CHECK(stats[0].hash == stats[1].hash);
+}
+
+TEST_CASE("tables read by address grow what those in a uniform buffer do") {
     TestDevice gpu;
     auto growth = gpu.growth();
     uint64_t first = 0;

@@ -238,6 +238,28 @@ Bark -> S(0.001) Shape("bark", C1)
     CHECK(s.growth->stats().hash == edited.hash);
 }
 
+TEST_CASE("plants grow beside frozen ones that have more nodes than passes have groups for") {
+    Session s(ball());
+    s.scene.plantMany(120, 0, 1);
+    s.scene.native = true;
+    s.grow();
+    Result<GrowthRecords> records = s.growth->read();
+    REQUIRE(records);
+    const auto plant = std::make_shared<PlantRecords>(plantOf(*records, 0));
+    while (s.scene.frozen.size() * plant->nodes.size() <= kLaneGroups * kNodesPerGroup)
+        s.scene.frozen.push_back({mix64(s.scene.frozen.size()), plant});
+    s.scene.limits.maxNodes = 1u << 22;
+    uint64_t hashes[2];
+    for (const bool native : {true, false}) {
+        s.scene.native = native;
+        s.changes.everything = true;
+        s.grow();
+        CHECK(s.growth->stats().native == native);
+        hashes[native] = s.growth->stats().hash;
+    }
+    CHECK(hashes[0] == hashes[1]);
+}
+
 TEST_CASE("frozen plants with more leaves than the limit are refused by name, and what stood before stands") {
     Session s(ball());
     s.scene.plantMany(2, 0, 1);

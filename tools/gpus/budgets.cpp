@@ -16,7 +16,7 @@ constexpr Exception kExceptions[] = {
     // lane, so that two subgroups fit.
     {"expand/march.comp", kNavi, {0, 128, 2}},
     {"expand/march_paper.comp", kNavi, {0, 128, 2}},
-    {"expand/march_again.comp", {2, 128, 8}, {10, 128, 1}},
+    {"expand/march_again.comp", kNavi, {0, 128, 1}},
     {"paint/smooth_walk.comp", kNavi, {0, 128, 2}},
     {"render/roof_cull_rows.comp", kNavi, {0, 128, 2}},
     // One kernel holds all operations of roofs.
