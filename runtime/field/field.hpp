@@ -1,0 +1,64 @@
+#pragma once
+
+// Tangent fields at the vertices of a mesh: designed from elements, or the surface's own curvature.
+
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "runtime/core/result.hpp"
+#include "runtime/field/field_mesh.hpp"
+
+namespace espalier {
+
+// A field of directions that are the same after a turn by 2 pi / symmetry: 1 a vector field, 2 a field of lines, as the
+// eigenvectors of a symmetric tensor are, 4 a cross field.
+//
+// power[v] is the direction's N-th power, exp(i N angle), in the measure of angles of the mesh's vertex. Its length is
+// 1 for designed fields. deviator and mean: the eigenvalues of a tensor are mean + deviator, along the direction, and
+// mean - deviator; of a vector field the length is the deviator.
+struct Field {
+    uint32_t symmetry = 2;
+    std::vector<std::complex<double>> power;
+    std::vector<float> mean, deviator;
+};
+
+// What a designer puts on a surface (Li 2011 §4.2, Fig. 6).
+enum class ElementKind : uint32_t { regular, wedge, trisector, node, centre, saddle };
+struct FieldElement {
+    ElementKind kind = ElementKind::regular;
+    glm::dvec3 position{0};       // object space, metres; the nearest vertex is meant
+    glm::dvec3 direction{1, 0, 0};  // a regular element's, laid into the surface; a singular one is turned so that this
+                                    // direction is one of the field's
+    double radius = 0;            // metres, how far it is felt; 0: a tenth of the surface's radius
+};
+
+// The turns that a field makes about an element, in whole turns: 1/2 for a wedge, -1 for a saddle.
+double indexOf(ElementKind kind);
+// Whether a field of this symmetry can have such an element.
+bool fits(ElementKind kind, uint32_t symmetry);
+
+struct FieldDesign {
+    uint32_t symmetry = 2;
+    std::vector<FieldElement> elements;
+    glm::dvec3 drift{0, -1, 0};  // object space: where no element says otherwise the field leans to this direction
+    double lean = 1;             // how much; 0: not at all
+};
+
+// The smoothest field that does what the design asks for: one sparse solve over the whole mesh. Fails for an element
+// that the symmetry doesn't allow, and where the mesh has no triangles.
+Result<Field> designField(const FieldMesh& mesh, const FieldDesign& design);
+
+// The tensor of curvature (Rusinkiewicz 2004, "Estimating curvatures and their derivatives on triangle meshes"):
+// symmetry 2, the direction that of the larger principal curvature, 1/m, positive on bulges.
+Field curvatureField(const FieldMesh& mesh);
+
+// A place about which the field turns, inside a triangle. turns: in N-ths of a whole turn, never 0.
+struct Singularity {
+    uint32_t triangle = 0;
+    int turns = 0;
+};
+// On a closed mesh their turns add up to N times the Euler characteristic, exactly.
+std::vector<Singularity> singularitiesOf(const FieldMesh& mesh, const Field& field);
+
+}  // namespace espalier

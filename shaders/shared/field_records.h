@@ -1,0 +1,72 @@
+// A tangent field as kernels read it: one texel for each of a surface's finest level (Li 2011 §4.2).
+#ifndef ESPALIER_SHARED_FIELD_RECORDS_H
+#define ESPALIER_SHARED_FIELD_RECORDS_H
+#include "shaders/shared/surface_lookup.h"
+
+ESPALIER_BEGIN
+
+CONST_UINT(kMaxFields, 4u);   // that a grammar reads
+
+// 8 bytes. power: exp(i N angle), 2 × 16 bit snorm, the angle from the texel's du, counterclockwise as seen from outside;
+// shorter than 1 where the directions around differ, 0 at a singularity and where there is no surface. tensor: two
+// halves, the mean of the eigenvalues in bits 15..0 and half of their difference in bits 31..16 (of a vector field its
+// length).
+struct FieldTexel {
+    uint power;
+    uint tensor;
+};
+STATIC_SIZE(FieldTexel, 8);
+BUFFER(FieldTexelBuf, FieldTexel)
+
+// texels: in texelIndex order, of the surface's finest level, of `size` texels a side. symmetry: N; 0: there is no field.
+struct FieldRef {
+    FieldTexelBuf texels;
+    uint size;
+    uint symmetry;
+};
+STATIC_SIZE(FieldRef, 16);
+BUFFER(FieldBuf, FieldRef)   // [instance * kMaxFields + field]
+
+FN float unpackHalf(uint h) {
+    uint e = (h >> 10u) & 31u;
+    float small = float(h & 1023u) * 5.96046448e-8f;
+    float size = e == 0u ? small : uintBitsToFloat(((e + 112u) << 23u) | ((h & 1023u) << 13u));
+    return (h & 0x8000u) != 0u ? -size : size;
+}
+
+// What a field says at a place.
+struct FieldSample {
+    vec2 power;          // as FieldTexel::power; its length tells how sure the direction is
+    float mean, deviator;
+};
+
+// Bilinear among the texels of the chart; a place without any gives zeros.
+FN FieldSample fieldAt(SurfaceBuf surfaces, FieldRef field, uint instance, uint chart, vec2 uv) {
+    FieldSample f = {};
+    f.power = vec2(0.0f);
+    f.mean = 0.0f;
+    f.deviator = 0.0f;
+    float sum = 0.0f;
+    Cell c = cellAt(float(field.size), uv);
+    float fx = limited(c.fx, 0.0f, 1.0f);
+    float fy = limited(c.fy, 0.0f, 1.0f);
+    for (uint i = 0u; i < 4u; ++i) {
+        uint at = i == 0u ? c.at00 : i == 1u ? c.at10 : i == 2u ? c.at01 : c.at11;
+        bool owned = texelOwned(readTexel(surfaces, instance, 0u, at).bits, chart);
+        float share = ((i & 1u) != 0u ? fx : 1.0f - fx) * ((i & 2u) != 0u ? fy : 1.0f - fy);
+        share = owned ? larger(share, 1e-6f) : 0.0f;
+        FieldTexel t = field.texels.v[at];
+        f.power = f.power + vec2(unpackSnorm16(t.power & 0xFFFFu), unpackSnorm16(t.power >> 16u)) * share;
+        f.mean = f.mean + unpackHalf(t.tensor & 0xFFFFu) * share;
+        f.deviator = f.deviator + unpackHalf(t.tensor >> 16u) * share;
+        sum = sum + share;
+    }
+    float k = sum > 0.0f ? rcpExact(sum) : 0.0f;
+    f.power = f.power * k;
+    f.mean = f.mean * k;
+    f.deviator = f.deviator * k;
+    return f;
+}
+
+ESPALIER_END
+#endif
