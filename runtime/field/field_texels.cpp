@@ -46,9 +46,7 @@ class Resampling {
         const TrianglePlane& plane = surface_.triangles[triangle];
         const dvec3 normal = glm::normalize(dvec3(glm::cross(plane.du, plane.dv))) *
                              double(surface_.charts[plane.chart].orientation);
-        dvec3 axis = across(x, y, plane.chart, dvec3(plane.du));
-        axis = glm::normalize(axis - normal * glm::dot(axis, normal));
-        const dvec3 left = glm::cross(normal, axis);
+        const dvec3 axis = glm::normalize(dvec3(plane.du)), left = glm::cross(normal, axis);
 
         const uint32_t t = mesh_.triangleOf[triangle];
         const std::array<double, 3> weights =
@@ -60,26 +58,17 @@ class Resampling {
             const double w = weights[mesh_.cornerOf[t][k]];
             const dvec3 direction = laid(mesh_.direction(v, std::arg(field_.power[v]) / field_.symmetry),
                                          mesh_.normals[v], normal);
-            const double angle = std::atan2(glm::dot(direction, left), glm::dot(direction, axis));
-            power += w * std::polar(1.0, angle * field_.symmetry);
+            const double turn = std::atan2(glm::dot(direction, left), glm::dot(direction, axis));
+            power += w * std::polar(1.0, turn * field_.symmetry);
             mean += w * double(field_.mean[v]);
             deviator += w * double(field_.deviator[v]);
         }
-        if (const double length = std::abs(power); length > 1) power /= length;
-        return {packSnorm16(float(power.real())) | packSnorm16(float(power.imag())) << 16,
+        const double angle = std::arg(power) / field_.symmetry;
+        return {packOct(glm::vec3(axis * std::cos(angle) + left * std::sin(angle))),
                 glm::packHalf1x16(half(mean)) | uint32_t(glm::packHalf1x16(half(deviator))) << 16};
     }
     static float half(double x) { return float(std::clamp(x, -60000.0, 60000.0)); }
 
-    // The direction of u at a texel as walks see it: between its neighbours, where these are of the chart.
-    dvec3 across(uint32_t x, uint32_t y, uint32_t chart, const dvec3& otherwise) const {
-        const uint32_t last = level_.size - 1;
-        const Texel& before = level_.texels[texelIndex(level_.size, x > 0 ? x - 1 : 0, y)];
-        const Texel& behind = level_.texels[texelIndex(level_.size, std::min(x + 1, last), y)];
-        if (!texelOwned(before.bits, chart) || !texelOwned(behind.bits, chart)) return otherwise;
-        const dvec3 du = dvec3(behind.position - before.position);
-        return glm::dot(du, otherwise) > 0 ? du : otherwise;
-    }
     // A tangent under one normal, turned by the least rotation to lie under another.
     static dvec3 laid(const dvec3& direction, const dvec3& from, const dvec3& to) {
         const double k = glm::dot(to, direction) / std::max(1 + glm::dot(from, to), 1e-3);

@@ -50,6 +50,7 @@ struct Rule {
     ExprId condition = kNoExpr;
     Sequence successor;
     ExprId probability = kNoExpr;
+    ExprId priority = kNoExpr;
     Place place;
 };
 
@@ -75,6 +76,13 @@ struct LetDeclaration {
     Place place;
 };
 
+// field name : kind "label"
+struct FieldDeclaration {
+    std::string name, kind, label;
+    ExprId symmetry = kNoExpr;  // of symmetry(N)
+    Place place;
+};
+
 // The width of the shapes that the grammar grows.
 struct WidthDeclaration {
     ExprId value = kNoExpr;
@@ -88,6 +96,8 @@ struct Module {
     std::vector<ParamDeclaration> params;
     std::vector<ContextDeclaration> contexts;
     std::vector<LetDeclaration> lets;
+    std::vector<FieldDeclaration> fields;
+    bool degrees = false;                  // angles are in degrees, of grammars of patterns
     std::vector<WidthDeclaration> widths;  // more than one is a mistake, to be reported
     std::set<std::string> mistaken;        // names whose statement couldn't be read: who uses them isn't to blame
 };

@@ -27,12 +27,12 @@ Node Expressions::call(const Expr& e, Env& env) {
         for (const auto& c : contextByName_) candidates.push_back(c.first);
         return fail(e.place, env, "no context layer '" + name + "' is declared" + didYouMean(name, candidates));
     }
-    if (roofs_ && e.kids.empty() && findRoofAccessor(name) != nullptr) return lowerName(name, e.place, env);
+    if (roofs() && e.kids.empty() && findRoofAccessor(name) != nullptr) return lowerName(name, e.place, env);
     if (name == "~" || name == "rel")
         return fail(e.place, env,
                     std::string(name == "~" ? "'~'" : "'rel'") + " is a size of Split and stands there only");
     const FunctionInfo* info = findFunction(name);
-    if (roofs_ && info != nullptr && (info->kind == Function::angleTo || info->kind == Function::every))
+    if (roofs() && info != nullptr && (info->kind == Function::angleTo || info->kind == Function::every))
         return fail(e.place, env, "'" + name + "' belongs to growth over a surface; a grammar of roofs has no walk");
     if (info == nullptr) {
         std::vector<std::string> candidates = functionNames();
@@ -54,12 +54,12 @@ Node Expressions::layer(const std::string& name, const Expr& e, const Env& env) 
                module_.exprs[e.kids[0]].text == word;
     };
     const uint32_t index = contextByName_.at(name);
-    if (roofs_ && index >= kRoofLayers) return fail(e.place, env, "a grammar of roofs reads at most 8 layers");
-    if (roofs_ && named("house")) return graph_.leaf(Leaf::slot, kSlotLayer + kRoofLayers + index);
+    if (roofs() && index >= kRoofLayers) return fail(e.place, env, "a grammar of roofs reads at most 8 layers");
+    if (roofs() && named("house")) return graph_.leaf(Leaf::slot, kSlotLayer + kRoofLayers + index);
     if (!named("texCoord"))
         return fail(e.place, env,
                     "a layer is read where the shape stands: write " + name + "(texCoord)" +
-                        (roofs_ ? ", or over the whole house: " + name + "(house)" : ""));
+                        (roofs() ? ", or over the whole house: " + name + "(house)" : ""));
     return graph_.leaf(Leaf::slot, kSlotLayer + index);
 }
 
@@ -207,7 +207,7 @@ bool Expressions::lowerColour(const std::vector<ExprId>& args, const Place& plac
         if (e.kind == ExprKind::call && colourContexts_.count(name) != 0) {
             const bool read = e.kids.size() == 1 && module_.exprs[e.kids[0]].kind == ExprKind::name;
             const std::string at = read ? module_.exprs[e.kids[0]].text : "";
-            if (at != "texCoord" && !(roofs_ && at == "house")) {
+            if (at != "texCoord" && !(roofs() && at == "house")) {
                 fail(place, env, "a layer of colours is read where the shape stands: Colour(" + name + "(texCoord))");
                 return false;
             }

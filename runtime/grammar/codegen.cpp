@@ -125,7 +125,8 @@ class Emitter {
         return {emit(n), 0};
     }
     void noteSlot(uint32_t slot) {
-        reads_.inputs |= all_.roofs && isOfRepeat(slot) ? kInputOfRoofs : inputBit(slot);
+        const bool query = all_.patterns && slot >= kSlotQuery && slot < kSlotQuery + kMaxQueries;
+        reads_.inputs |= query ? kInputFields : all_.roofs && isOfRepeat(slot) ? kInputOfRoofs : inputBit(slot);
         if (slot >= kSlotLayer && slot < kSlotLayer + kMaxLayers) reads_.layers |= 1u << (slot - kSlotLayer);
         if (slot >= kSlotArg && slot < kSlotArg + kMaxArgs) reads_.args |= 1u << (slot - kSlotArg);
     }

@@ -50,7 +50,9 @@ struct Compilation {
     std::vector<uint32_t> sites;
     std::vector<Value> roofValues;         // the numbers of their rules
     std::vector<std::string> nestedNames;  // of symbols that stand behind all named ones
-    bool roofs = false;
+    std::vector<PatternPart> parts;        // of grammars of patterns
+    std::vector<PatternOp> ops;
+    GrammarKind kind = GrammarKind::plants;
 
     uint32_t findSymbol(const std::string& name) const {
         auto found = symbolByName.find(name);
@@ -74,8 +76,8 @@ struct Compilation {
     std::vector<Env> lowerChoice(const Symbol& symbol, std::span<const Node> args);
 };
 
-// True for a grammar whose rules make roofs, false for one that walks.
-bool isRoofGrammar(const Module& module);
+// What its rules make.
+GrammarKind kindOf(const Module& module);
 
 // Fills Compilation::symbols with the rules of each predecessor; reports what contradicts itself.
 void collectSymbols(Compilation& c);
@@ -89,6 +91,9 @@ void lowerGrowth(Compilation& c);
 
 // All rules of a grammar of roofs (Buron 2013).
 void lowerRoofs(Compilation& c);
+
+// All rules of a grammar of patterns (Li 2011).
+void lowerPatterns(Compilation& c);
 
 // The program of an extruded successor of `rule`; args: the nodes of the rule's arguments. Returns its index + 1, or
 // 0 if nothing is drawn or a mistake was reported.

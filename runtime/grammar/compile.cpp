@@ -10,15 +10,16 @@ namespace espalier {
 namespace {
 
 // Part of the content hash: raise it whenever the same text compiles to another map.
-constexpr uint64_t kCompilerVersion = 9;
+constexpr uint64_t kCompilerVersion = 10;
 
 uint64_t contentHashOf(const std::vector<std::string>& sources, const std::vector<std::string>& names,
-                       const std::vector<TerminalMesh>& meshes, const std::vector<TerminalMesh>& roofMeshes) {
+                       const CompileOptions& options) {
     uint64_t hash = kCompilerVersion;
     for (const std::string& s : sources) hash = hashText(s, mix64(hash + s.size()));
     for (const std::string& s : names) hash = hashText(s, mix64(hash + s.size()));
-    for (const TerminalMesh& m : meshes) hash = hashText(m.name, mix64(hash + (m.bark ? 1 : 2)));
-    for (const TerminalMesh& m : roofMeshes) hash = hashText(m.name, mix64(hash + 3));
+    for (const TerminalMesh& m : options.meshes) hash = hashText(m.name, mix64(hash + (m.bark ? 1 : 2)));
+    for (const TerminalMesh& m : options.roofMeshes) hash = hashText(m.name, mix64(hash + 3));
+    for (const TerminalMesh& m : options.pieces) hash = hashText(m.name, mix64(hash + 4));
     return hash;
 }
 
@@ -36,7 +37,7 @@ void parse(std::string_view text, Parsed& p) {
     std::vector<std::string> sources;
     grammar::Compilation& c = p.compilation;
     grammar::parseModule(text, c.options, c.module, c.reporter, sources);
-    p.contentHash = contentHashOf(sources, c.module.files, c.options.meshes, c.options.roofMeshes);
+    p.contentHash = contentHashOf(sources, c.module.files, c.options);
 }
 
 void lowerWidth(grammar::Compilation& c) {
@@ -63,14 +64,18 @@ void lowerWidth(grammar::Compilation& c) {
 
 Result<RuleMap> compile(Parsed& p) {
     grammar::Compilation& c = p.compilation;
-    c.roofs = grammar::isRoofGrammar(c.module);
-    c.expressions.ofRoofs(c.roofs);
-    c.code.roofs = c.roofs;
+    c.kind = grammar::kindOf(c.module);
+    c.expressions.ofKind(c.kind);
+    c.code.roofs = c.kind == GrammarKind::roofs;
+    c.code.patterns = c.kind == GrammarKind::patterns;
     c.expressions.declare();
     // Lowering checks what is in the rules; it can't get stuck on what has been reported so far.
-    if (c.roofs) {
+    if (c.kind == GrammarKind::roofs) {
         grammar::collectSymbols(c);
         grammar::lowerRoofs(c);
+    } else if (c.kind == GrammarKind::patterns) {
+        grammar::collectSymbols(c);
+        grammar::lowerPatterns(c);
     } else {
         grammar::analyseSymbols(c);
         grammar::lowerGrowth(c);
@@ -78,7 +83,7 @@ Result<RuleMap> compile(Parsed& p) {
     lowerWidth(c);
     if (c.reporter.failed()) return failureOf(c.reporter);
     c.expressions.warnUnused();
-    if (!c.roofs) grammar::warnUnreached(c);
+    if (c.kind == GrammarKind::plants) grammar::warnUnreached(c);
     RuleMap map = RuleMapAccess::assemble(c, p.contentHash);
     if (!c.code.failure.empty()) return Failure(c.options.fileName, c.code.failure);
     std::string wrong = RuleMapAccess::verify(map);

@@ -82,6 +82,31 @@ bool Expressions::declareContext(const ContextDeclaration& c) {
     return true;
 }
 
+void Expressions::declareField(const FieldDeclaration& f) {
+    if (!takeName(f.name, f.place)) return;
+    FieldInfo info{f.name, f.label.empty() ? f.name : f.label, 2, false};
+    if (f.kind == "vector") {
+        info.symmetry = 1;
+    } else if (f.kind == "cross") {
+        info.symmetry = 4;
+    } else if (f.kind == "symmetry") {
+        const float n = constantOf(f.symmetry, f.name, 0);
+        const bool whole = n >= 1 && n <= float(kMaxSymmetry) && n == float(int(n));
+        if (!whole) reporter_.error(f.place, f.name, "write symmetry(N) with a whole number from 1 to 12");
+        info.symmetry = whole ? uint32_t(n) : 1;
+    } else if (f.kind == "curvature") {
+        info.curvature = true;
+    } else if (f.kind != "tensor") {
+        reporter_.error(f.place, f.name,
+                        "a field is a tensor, a vector, a cross, a symmetry(N) or the surface's curvature, not '" +
+                            f.kind + "'");
+    }
+    if (fields.size() == kMaxFields)
+        reporter_.error(f.place, f.name, "too many fields: 4 are the most");
+    else
+        fields.push_back(std::move(info));
+}
+
 void Expressions::declare() {
     uint32_t slots = 0;
     for (const ParamDeclaration& p : module_.params) {
@@ -90,6 +115,7 @@ void Expressions::declare() {
     }
     for (const ContextDeclaration& c : module_.contexts)
         if (takeName(c.name, c.place) && !declareContext(c)) break;
+    for (const FieldDeclaration& f : module_.fields) declareField(f);
     for (uint32_t i = 0; i < module_.lets.size(); ++i)
         if (takeName(module_.lets[i].name, module_.lets[i].place)) letByName_[module_.lets[i].name] = i;
 }

@@ -2,6 +2,8 @@
 // to products, rand to a draw slot, angleTo to an input that the expander fills.
 #include "runtime/grammar/expressions.hpp"
 
+#include <algorithm>
+
 namespace espalier::grammar {
 namespace {
 
@@ -36,7 +38,7 @@ Node Expressions::unknown(const std::string& name, const Place& place, const Env
     if (reporter_.full() || mistaken(name)) return graph_.mistake();
     auto [hint, fresh] = hints_.try_emplace({env.rule, name});
     if (fresh) {
-        std::vector<std::string> candidates = roofs_ ? roofAccessorNames() : accessorNames();
+        std::vector<std::string> candidates = roofs() ? roofAccessorNames() : accessorNames();
         for (const auto& arg : env.args) candidates.push_back(arg.first);
         candidates.insert(candidates.end(), names_.begin(), names_.end());
         hint->second = didYouMean(name, candidates);
@@ -95,10 +97,11 @@ Node Expressions::lowerName(const std::string& name, const Place& place, Env& en
         activeLets_.erase(name);
         return node;
     }
+    if (const std::optional<Node> query = fieldQuery(base, part, place, env)) return *query;
     if (name == "pi") return graph_.constant(kPi);
     if (name == "true" || name == "otherwise") return graph_.one();
     if (name == "false") return graph_.zero();
-    if (roofs_) {
+    if (roofs()) {
         if (const AccessorInfo* info = findRoofAccessor(name)) return graph_.leaf(Leaf::slot, info->slot);
         if (const float* word = findRoofWord(name)) return graph_.constant(*word);
         if (findAccessor(name) != nullptr)
@@ -118,6 +121,30 @@ Node Expressions::lowerName(const std::string& name, const Place& place, Env& en
         return fail(place, env,
                     "'" + name + "' is a direction; it stands in angleTo(" + name + ") or facing(" + name + ")");
     return unknown(name, place, env);
+}
+
+// F.value1: a query of the field F, by its name or, as in Li 2011, by its number F1. Nothing: there is no such field.
+std::optional<Node> Expressions::fieldQuery(const std::string& base, const std::string& part, const Place& place,
+                                            const Env& env) {
+    const bool numbered = base.size() == 2 && base[0] == 'F' && base[1] >= '1' && size_t(base[1] - '1') < fields.size();
+    auto field = std::ranges::find(fields, base, &FieldInfo::name);
+    if (field == fields.end() && numbered) field = fields.begin() + (base[1] - '1');
+    if (field == fields.end()) return std::nullopt;
+    used_.insert(field->name);
+    const uint32_t quantity = findQuery(part);
+    if (quantity == kNoIndex) {
+        const std::vector<std::string> known = queryNames();
+        const std::string hint = didYouMean(part, known);
+        return fail(place, env, "a field is asked for " + base + ".value1, .value2, .Xangle1, .Xangle2 or .sure" + hint);
+    }
+    const uint32_t query = uint32_t(field - fields.begin()) | quantity << 8;
+    auto known = std::ranges::find(queries, query);
+    if (known == queries.end() && queries.size() == kMaxQueries)
+        return fail(place, env, "fields are asked for more than 20 different things in this grammar");
+    if (known == queries.end()) known = queries.insert(queries.end(), query);
+    const Node value = graph_.leaf(Leaf::slot, kSlotQuery + uint32_t(known - queries.begin()));
+    const bool angle = quantity == kQueryAngle1 || quantity == kQueryAngle2;
+    return angle && module_.degrees ? graph_.mul(value, graph_.constant(180 / kPi)) : value;
 }
 
 Node Expressions::lower(ExprId id, Env& env) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -54,8 +55,9 @@ class Expressions {
     Node lowerName(const std::string& name, const Place& place, Env& env);
     // x + y, of commands that add up; reported where too many have.
     Node sum(Node x, Node y, const Place& place, const Env& env);
-    // Grammars of roofs have accessors of their own, and vectors. To be said before declare().
-    void ofRoofs(bool roofs) { roofs_ = roofs; }
+    // Grammars of roofs have accessors of their own, and vectors; those of patterns ask fields. To be said before
+    // declare().
+    void ofKind(GrammarKind kind) { kind_ = kind; }
     // A vector of 2 or 3 parts (`size`; of two the last part is 0): an accessor, vec2, vec3, cross, unit, sums,
     // products with numbers, a let of such. False: reported.
     bool lowerVector(ExprId expr, Env& env, Node (&xyz)[3], int& size);
@@ -76,6 +78,8 @@ class Expressions {
     std::vector<ParamInfo> params;
     std::vector<ContextInfo> contexts;
     std::vector<Node> directions;  // three nodes each
+    std::vector<FieldInfo> fields;
+    std::vector<uint32_t> queries;  // as rule_map.h has them, in the order of their slots
 
   private:
     // Operations that use each other in a row: later stages recurse over them.
@@ -87,6 +91,9 @@ class Expressions {
     float constantOf(ExprId expr, const std::string& rule, float otherwise);
     void declareParam(const ParamDeclaration& p, uint32_t& slots);
     bool declareContext(const ContextDeclaration& c);
+    void declareField(const FieldDeclaration& f);
+    std::optional<Node> fieldQuery(const std::string& base, const std::string& part, const Place& place,
+                                   const Env& env);
     bool enterLet(const std::string& name, const Place& place, const Env& env);
     Node failTooDeep(const Place& place, const Env& env);
     bool takeName(const std::string& name, const Place& place);
@@ -110,7 +117,8 @@ class Expressions {
     std::set<std::string> colourContexts_;  // each is three contexts, its name with kChannels behind it
     std::map<std::pair<std::string, std::string>, std::string> hints_;  // of a rule and a name that it doesn't know
     uint64_t work_ = 0;
-    bool roofs_ = false;
+    bool roofs() const { return kind_ == GrammarKind::roofs; }
+    GrammarKind kind_ = GrammarKind::plants;
     uint32_t nesting_ = 0;  // calls of lower and lowerVector under way
 };
 

@@ -15,6 +15,10 @@
 // Grammar text -> rule map. The language is described in docs/grammar.md, the map in shaders/shared/rule_map.h.
 namespace espalier {
 
+// What a grammar makes: plants walk over surfaces (Buron 2015), roofs stand on houses (Buron 2013), patterns are placed
+// on surfaces along fields (Li 2011).
+enum class GrammarKind : uint32_t { plants, roofs, patterns };
+
 enum class ParamKind : uint32_t { number, toggle, colour };
 
 // A slider of the editor. value: what it stands at; toggles are 0 or 1; colours use all three, linear 0..1.
@@ -40,10 +44,17 @@ struct ContextInfo {
     float fill = 1;
 };
 
+// A tangent field that a grammar of patterns reads. symmetry: 1 vectors, 2 lines, as of a symmetric tensor, and so on.
+struct FieldInfo {
+    std::string name, label;
+    uint32_t symmetry = 2;
+    bool curvature = false;  // the surface's own; else one that is designed
+};
+
 struct SymbolInfo {
     std::string name;
     uint32_t argCount = 0;
-    bool grows = false;  // it reaches Marching: a seed may start with it
+    bool grows = false;  // a seed may start with it; of plants: it reaches Marching
 };
 
 // A mesh that Shape("name") may ask for. bark: bent along spans; else set on them as loose instances.
@@ -68,8 +79,10 @@ struct CompileOptions {
     IncludeReader readInclude;         // none: includes are refused
     std::vector<TerminalMesh> meshes = standardTerminalMeshes();
     std::vector<TerminalMesh> roofMeshes;  // for grammars of roofs; empty: `meshes`
+    std::vector<TerminalMesh> pieces;      // for grammars of patterns; empty: `meshes`
 
     const std::vector<TerminalMesh>& meshesOfRoofs() const { return roofMeshes.empty() ? meshes : roofMeshes; }
+    const std::vector<TerminalMesh>& meshesOfPatterns() const { return pieces.empty() ? meshes : pieces; }
 };
 
 // How what has grown by one rule map differs from what grows by another.
@@ -90,8 +103,12 @@ class RuleMap {
     std::optional<uint32_t> findContext(std::string_view name) const;
     // The predecessor of the first growing rule of the main text.
     uint32_t startSymbol() const { return startSymbol_; }
-    // A grammar of roofs (Buron 2013): its symbols replace shapes on houses; seeds can't start with them.
-    bool roofs() const { return roofs_; }
+    GrammarKind kind() const { return kind_; }
+    // Its symbols replace shapes on houses; seeds can't start with them.
+    bool roofs() const { return kind_ == GrammarKind::roofs; }
+    bool patterns() const { return kind_ == GrammarKind::patterns; }
+    // Of grammars of patterns, at most kMaxFields; the first guides T.
+    const std::vector<FieldInfo>& fields() const { return fields_; }
     const std::vector<Diagnostic>& warnings() const { return warnings_; }
 
     // Sets a parameter, limited to its range (colours: 0..1; NaN: left as it was), and works out what depends
@@ -114,7 +131,7 @@ class RuleMap {
     // The same plants and roofs grow from both, whatever their parameters are set to later: the texts differ in
     // comments, layout, labels and defaults alone, and their parameters now stand at the same values.
     bool growsAs(const RuleMap& other) const;
-    // What grows otherwise than by `before`, with the parameters of both as they stand. Not of roofs: `all`.
+    // What grows otherwise than by `before`, with the parameters of both as they stand. Of plants only, others: `all`.
     RuleChanges changesFrom(const RuleMap& before) const;
 
     // The map's record for words that lie at `address` (of a device, or of words().data() for the CPU, as long as
@@ -133,14 +150,15 @@ class RuleMap {
     uint32_t startSymbol_ = 0;
     std::vector<ParamInfo> params_;
     std::vector<ContextInfo> contexts_;
+    std::vector<FieldInfo> fields_;
     std::vector<SymbolInfo> symbols_;
     std::vector<Diagnostic> warnings_;
     std::vector<uint32_t> words_;
     struct Section {
         uint32_t offset = 0, count = 0;  // words; records
     };
-    static constexpr uint32_t kSections = 9;
-    bool roofs_ = false;
+    static constexpr uint32_t kSections = 12;
+    GrammarKind kind_ = GrammarKind::plants;
     Section sections_[kSections];
     // What follows from parameters: code that the host runs, its results, and the words that take them.
     struct Uniform {

@@ -14,9 +14,9 @@ namespace {
 
 constexpr size_t kMaxTokens = 200'000;
 constexpr std::string_view kArrow = "\xE2\x86\x92", kPiSign = "\xCF\x80", kTilde = "\xE2\x88\xBC";
-constexpr std::array<std::string_view, 27> kSymbols = {"->", "<=", ">=", "==", "!=", "&&", "||", "..", "(",
-                                                       ")",  "{",  "}",  "[",  "]",  ",",  ";",  ":",  "?",
-                                                       "+",  "-",  "*",  "/",  "%",  "<",  ">",  "=",  "~"};
+constexpr std::array<std::string_view, 28> kSymbols = {"->", "<=", ">=", "==", "!=", "&&", "||", "..", "(", ")",
+                                                       "{",  "}",  "[",  "]",  ",",  ";",  ":",  "?",  "+", "-",
+                                                       "*",  "/",  "%",  "<",  ">",  "=",  "~",  "|"};
 
 bool isLetter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
@@ -139,6 +139,7 @@ class Lexer {
         if (c == '"') return string();
         if (c == '#') return colour();
         if (startsWith(kArrow)) return symbol("->", kArrow.size());
+        if (startsWith("~>")) return symbol("->", 2);  // as Li 2011 writes it
         if (startsWith(kTilde)) return symbol("~", kTilde.size());
         if (startsWith(kPiSign)) {
             begin(TokenKind::name).text = "pi";

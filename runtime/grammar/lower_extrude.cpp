@@ -80,6 +80,8 @@ class ExtrudeLowering {
             c_.expressions.lowerColour(e.args, e.place, env, scope.colour);
             return;
         }
+        if (isOfPatterns(info.kind))
+            return error(e.place, env, "'" + e.name + "' belongs to patterns; a grammar either marches or makes patterns");
         if (info.kind == Command::drop || info.kind == Command::moss)
             return error(e.place, env, "'" + e.name + "' belongs to roofs; here layers are read as name(texCoord)");
         Node a[2] = {};
@@ -155,6 +157,9 @@ class ExtrudeLowering {
         if (block.kind == Block::marching)
             return error(e.place, env,
                          "an extruded successor draws on its span and can't march; branches begin in a Branch rule");
+        if (block.kind == Block::lock)
+            return error(e.place, env,
+                         "'" + e.name + "' belongs to patterns; a grammar either marches or makes patterns");
         if (isRoofBlock(block.kind))
             return error(e.place, env, "'" + e.name + "' makes roofs; a grammar either marches or makes roofs");
         if (!e.hasItems || e.args.size() < block.minArgs || e.args.size() > block.maxArgs ||

@@ -122,6 +122,8 @@ class RoofLowering {
         for (const Element& e : sequence) {
             const CommandInfo* command = findCommand(e.name);
             made += command == nullptr || command->kind == Command::shape ? 1 : 0;
+            if (command != nullptr && isOfPatterns(command->kind))
+                error(e.place, env, "'" + e.name + "' belongs to patterns; a grammar either makes roofs or patterns");
         }
         if (made == 0) return emptyRule(kRuleNull);
         if (made == 1) return single(sequence, env, rule, name);

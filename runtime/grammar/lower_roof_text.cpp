@@ -82,6 +82,9 @@ RoofScope plainScope(Graph& g) {
 void applyCommand(Compilation& c, const CommandInfo& info, const Element& e, Env& env, RoofScope& scope) {
     const bool metres = info.kind == Command::size || info.kind == Command::translate;
     if (info.kind == Command::null) return;
+    if (isOfPatterns(info.kind))
+        return c.reporter.error(e.place, env.rule,
+                                "'" + e.name + "' belongs to patterns; a grammar either makes roofs or patterns");
     if (e.hasItems || e.args.size() < info.minArgs || e.args.size() > (metres ? 3 : info.maxArgs))
         return c.reporter.error(e.place, env.rule,
                                 metres ? "write " + e.name + "(x), " + e.name + "(x, y) or " + e.name + "(x, y, z)"
@@ -126,6 +129,10 @@ bool lowerBlock(Compilation& c, const BlockInfo& info, const Element& e, Env& en
                 std::vector<Node>& roots) {
     const bool repeat = info.kind == Block::repeat;
     const size_t least = repeat ? 2 : info.minArgs, most = repeat ? 4 : info.maxArgs;
+    if (info.kind == Block::lock)
+        return c.reporter.error(e.place, env.rule,
+                                "'" + e.name + "' belongs to patterns; a grammar either makes roofs or patterns"),
+               false;
     if (info.kind == Block::marching || info.kind == Block::branch)
         return c.reporter.error(e.place, env.rule,
                                 "'" + e.name + "' walks over a surface; a grammar either walks or makes roofs"),

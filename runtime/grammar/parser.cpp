@@ -105,16 +105,20 @@ class Parser {
     // missing is missing before it.
     bool nextStatementBegins() const {
         if (!at(TokenKind::name)) return false;
-        if (arrowFollowsName()) return true;
+        if (arrowFollowsName() || symbolFollowsName("=")) return true;
         if (!now().firstOnLine || now().place.column > column_) return false;
-        const bool declares = atName("param") || atName("let") || atName("context") || atName("include");
+        const bool declares =
+            atName("param") || atName("let") || atName("context") || atName("include") || atName("field");
         const TokenKind next = ahead(1).kind;
         if (declares && (next == TokenKind::name || next == TokenKind::string)) return true;
         return choices_ == 0 && symbolFollowsName(":");
     }
     bool statementBegins() const {
         if (!at(TokenKind::name)) return false;
-        return (now().firstOnLine && now().place.column <= column_) || arrowFollowsName();
+        return (now().firstOnLine && now().place.column <= column_) || arrowFollowsName() || symbolFollowsName("=");
+    }
+    bool numberedRuleBegins() const {
+        return at(TokenKind::number) && now().firstOnLine && now().place.column <= column_;
     }
     void recover(size_t before) {
         if (at_ == before) ++at_;
@@ -130,12 +134,16 @@ class Parser {
         nesting_ = choices_ = 0;
         column_ = now().place.column;
         if (accept(";")) return;
+        // Li 2011 numbers its rules.
+        if (at(TokenKind::number) && ahead(1).kind == TokenKind::symbol && ahead(1).text == ":") at_ += 2;
         if (!at(TokenKind::name)) fail("expected a rule or a declaration, found " + shown(now()));
         bool isRule = ahead(1).kind == TokenKind::symbol;  // "param(n) -> ..." would be a rule
         if (!isRule && atName("include")) return include();
         if (!isRule && atName("param")) return param();
         if (!isRule && atName("context")) return context();
         if (!isRule && atName("let")) return let();
+        if (!isRule && atName("field")) return field();
+        if (!isRule && atName("angles")) return angles();
         // A word of the language here only: rules, parameters and lets may be named so.
         if (atName("width") && !arrowFollowsName() && !symbolFollowsName(":")) return width();
         rule();
@@ -199,6 +207,30 @@ class Parser {
         module_.lets.push_back(std::move(l));
     }
 
+    // field name : tensor, vector, cross, symmetry(N) or curvature
+    void field() {
+        ++at_;
+        FieldDeclaration f;
+        f.place = now().place;
+        f.name = rule_ = expectName("the field's name");
+        expect(":", "and the kind behind the field's name");
+        f.kind = expectName("tensor, vector, cross, symmetry(N) or curvature");
+        if (accept("(")) {
+            f.symmetry = expression();
+            expect(")", "behind the number");
+        }
+        if (at(TokenKind::string)) f.label = tokens_[at_++].text;
+        accept(";");
+        module_.fields.push_back(std::move(f));
+    }
+    void angles() {
+        rule_ = tokens_[at_++].text;
+        if (!atName("degrees") && !atName("radians")) failMissing("degrees or radians");
+        module_.degrees = atName("degrees");
+        ++at_;
+        accept(";");
+    }
+
     void width() {
         WidthDeclaration w;
         w.place = now().place;
@@ -221,22 +253,29 @@ class Parser {
             expect(")", "behind the arguments");
         }
         if (accept(":")) r.condition = expression();
-        expect("->", r.condition == kNoExpr ? "behind the predecessor" : "behind the condition");
+        if (!accept("="))  // as Li 2011 writes it in Fig. 1
+            expect("->", r.condition == kNoExpr ? "behind the predecessor" : "behind the condition");
         r.successor = sequence(1);
         if (r.successor.empty()) failMissing("a successor behind -> (NULL stands for none)");
+        if (atPriority()) {
+            ++at_;
+            r.priority = expression();
+        }
         if (accept(":")) r.probability = expression();
         bool ended = accept(";");
         if (module_.rules.size() >= kMaxRules) fail("more than 1,000 rules");
         module_.rules.push_back(std::move(r));
-        if (!ended && !at(TokenKind::end) && !statementBegins())
+        if (!ended && !at(TokenKind::end) && !statementBegins() && !numberedRuleBegins())
             fail("expected ';' or the next rule, found " + shown(now()));
     }
+    bool atPriority() const { return atName("priority") && ahead(1).kind == TokenKind::number; }
     // Elements up to whatever can't be one.
     Sequence sequence(int depth) {
         if (depth > 12) fail("successors are nested too deeply (12 levels are the most)");
         Sequence all;
         while (true) {
-            if (depth == 1 ? statementBegins() : nextStatementBegins()) return all;
+            if (depth == 1 ? statementBegins() || numberedRuleBegins() : nextStatementBegins()) return all;
+            if (depth == 1 && atPriority()) return all;
             if (at("[") || at("]")) {
                 Element bracket;
                 bracket.name = now().text;
@@ -262,7 +301,7 @@ class Parser {
                 e.items.push_back(sequence(depth + 1));
                 if (e.items.back().empty()) failMissing("a successor (NULL stands for none)");
                 if (e.items.size() > 64) fail("more than 64 successors");
-                if (!accept(",")) break;
+                if (!accept(",") && !accept("|")) break;
             }
             expect("}", "behind the successors of " + e.name);
         }

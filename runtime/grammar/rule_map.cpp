@@ -29,6 +29,11 @@ constexpr uint32_t kTerminalValues[] = {wordOf(offsetof(TerminalRecord, count)),
                                         kSize + 14,
                                         kSize + 16};
 
+constexpr uint32_t kPartArgs = wordOf(offsetof(PatternPart, args));
+constexpr uint32_t kPartValues[] = {kPartArgs, kPartArgs + 2, kPartArgs + 4, kPartArgs + 6};
+constexpr uint32_t kOpFirst = wordOf(offsetof(PatternOp, values));
+constexpr uint32_t kOpValues[] = {kOpFirst, kOpFirst + 2, kOpFirst + 4};
+
 template <class T>
 void append(std::vector<uint32_t>& words, RuleMapAccess::Section& section, const std::vector<T>& records) {
     while (words.size() % 4 != 0) words.push_back(0);
@@ -53,6 +58,10 @@ std::span<const uint32_t> valueOffsets(uint32_t section) {
             return kTerminalValues;
         case kSectionValues:
             return kPlainValue;
+        case kSectionParts:
+            return kPartValues;
+        case kSectionOps:
+            return kOpValues;
         default:
             return {};
     }
@@ -62,7 +71,8 @@ RuleMap RuleMapAccess::assemble(grammar::Compilation& c, uint64_t contentHash) {
     RuleMap map;
     map.contentHash_ = contentHash;
     map.startSymbol_ = c.startSymbol;
-    map.roofs_ = c.roofs;
+    map.kind_ = c.kind;
+    map.fields_ = c.expressions.fields;
     map.params_ = c.expressions.params;
     map.contexts_ = c.expressions.contexts;
     for (const grammar::Symbol& s : c.symbols)
@@ -85,7 +95,7 @@ RuleMap RuleMapAccess::assemble(grammar::Compilation& c, uint64_t contentHash) {
         }
         directions.push_back(d);
     }
-    if (!c.roofs)
+    if (c.kind == GrammarKind::plants)
         for (uint32_t i = 0; i < c.symbolRecords.size(); ++i) c.symbolRecords[i].uses |= symbolBit(i, slotsOf(map));
     append(map.words_, map.sections_[kSectionSymbols], c.symbolRecords);
     append(map.words_, map.sections_[kSectionRules], c.rules);
@@ -96,6 +106,9 @@ RuleMap RuleMapAccess::assemble(grammar::Compilation& c, uint64_t contentHash) {
     append(map.words_, map.sections_[kSectionSites], c.sites);
     append(map.words_, map.sections_[kSectionDirections], directions);
     append(map.words_, map.sections_[kSectionValues], c.roofValues);
+    append(map.words_, map.sections_[kSectionParts], c.parts);
+    append(map.words_, map.sections_[kSectionOps], c.ops);
+    append(map.words_, map.sections_[kSectionQueries], c.expressions.queries);
     while (map.words_.size() % 4 != 0) map.words_.push_back(0);
 
     for (uint32_t s = 0; s < kSections; ++s)
@@ -247,7 +260,12 @@ RuleMapRef RuleMap::refAt(uint64_t address) const {
     for (uint32_t i = 0; i < kMaxLayers; ++i) ref.layerOf[i] = i;
     ref.values.v = reinterpret_cast<Value*>(at(kSectionValues));
     ref.valueCount = sections_[kSectionValues].count;
-    ref.roofs = roofs_ ? 1 : 0;
+    ref.kind = uint32_t(kind_);
+    ref.parts.v = reinterpret_cast<PatternPart*>(at(kSectionParts));
+    ref.ops.v = reinterpret_cast<PatternOp*>(at(kSectionOps));
+    ref.queries.v = reinterpret_cast<uint*>(at(kSectionQueries));
+    ref.queryCount = sections_[kSectionQueries].count;
+    ref.fieldCount = uint32_t(fields_.size());
     return ref;
 }
 

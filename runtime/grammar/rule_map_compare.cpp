@@ -13,6 +13,9 @@ bool sameParam(const ParamInfo& a, const ParamInfo& b) {
 bool sameContext(const ContextInfo& a, const ContextInfo& b) {
     return a.name == b.name && a.fill == b.fill;
 }
+bool sameField(const FieldInfo& a, const FieldInfo& b) {
+    return a.name == b.name && a.symmetry == b.symmetry && a.curvature == b.curvature;
+}
 bool sameSymbol(const SymbolInfo& a, const SymbolInfo& b) {
     return a.name == b.name && a.argCount == b.argCount && a.grows == b.grows;
 }
@@ -108,7 +111,8 @@ bool RuleMap::growsAs(const RuleMap& other) const {
         return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
     };
     const auto sameSection = [](Section a, Section b) { return a.offset == b.offset && a.count == b.count; };
-    return startSymbol_ == other.startSymbol_ && roofs_ == other.roofs_ && widthUniform_ == other.widthUniform_ &&
+    return startSymbol_ == other.startSymbol_ && kind_ == other.kind_ && std::ranges::equal(fields_, other.fields_, sameField) &&
+            widthUniform_ == other.widthUniform_ &&
            width_ == other.width_ && std::ranges::equal(params_, other.params_, sameParam) &&
            std::ranges::equal(contexts_, other.contexts_, sameContext) &&
            std::ranges::equal(symbols_, other.symbols_, sameSymbol) &&
@@ -119,7 +123,7 @@ bool RuleMap::growsAs(const RuleMap& other) const {
 
 RuleChanges RuleMap::changesFrom(const RuleMap& before) const {
     const size_t layers = std::min(contexts_.size(), before.contexts_.size());
-    if (roofs_ || before.roofs_ || !sameDirections(*this, before) ||
+    if (kind_ != GrammarKind::plants || before.kind_ != GrammarKind::plants || !sameDirections(*this, before) ||
         !std::equal(contexts_.begin(), contexts_.begin() + std::ptrdiff_t(layers), before.contexts_.begin(),
                     sameContext))
         return {.all = true};

@@ -9,7 +9,7 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kMagic = 0x4D525345u;  // "ESRM"
-constexpr uint32_t kVersion = 6;
+constexpr uint32_t kVersion = 7;
 constexpr size_t kHeaderBytes = 24;
 static_assert(std::endian::native == std::endian::little);
 
@@ -86,7 +86,7 @@ std::vector<uint8_t> RuleMap::save() const {
     RuleMapAccess::evaluate(plain);
     Writer body;
     body.put(plain.startSymbol_);
-    body.put(static_cast<uint32_t>(plain.roofs_));
+    body.put(plain.kind_);
     body.put(static_cast<uint32_t>(params_.size()));
     for (const ParamInfo& p : plain.params_) {
         body.put(p.name);
@@ -103,6 +103,13 @@ std::vector<uint8_t> RuleMap::save() const {
         body.put(c.name);
         body.put(c.label);
         body.put(c.fill);
+    }
+    body.put(static_cast<uint32_t>(fields_.size()));
+    for (const FieldInfo& f : plain.fields_) {
+        body.put(f.name);
+        body.put(f.label);
+        body.put(f.symmetry);
+        body.put(static_cast<uint32_t>(f.curvature));
     }
     body.put(static_cast<uint32_t>(symbols_.size()));
     for (const SymbolInfo& s : plain.symbols_) {
@@ -147,7 +154,7 @@ Result<RuleMap> RuleMap::load(std::span<const uint8_t> bytes, std::string_view f
 
     Reader r(rest);
     map.startSymbol_ = r.get<uint32_t>();
-    map.roofs_ = r.get<uint32_t>() != 0;
+    map.kind_ = static_cast<GrammarKind>(r.get<uint32_t>());
     for (uint32_t i = r.count(40); i > 0 && r.good(); --i) {
         ParamInfo p;
         p.name = r.text();
@@ -165,6 +172,14 @@ Result<RuleMap> RuleMap::load(std::span<const uint8_t> bytes, std::string_view f
         std::string name = r.text();
         std::string label = r.text();
         map.contexts_.push_back({name, label, r.get<float>()});
+    }
+    for (uint32_t i = r.count(16); i > 0 && r.good(); --i) {
+        FieldInfo f;
+        f.name = r.text();
+        f.label = r.text();
+        f.symmetry = r.get<uint32_t>();
+        f.curvature = r.get<uint32_t>() != 0;
+        map.fields_.push_back(std::move(f));
     }
     for (uint32_t i = r.count(8); i > 0 && r.good(); --i) {
         std::string name = r.text();

@@ -14,7 +14,10 @@ enum MapSection : uint32_t {
     kSectionCode,
     kSectionSites,
     kSectionDirections,
-    kSectionValues
+    kSectionValues,
+    kSectionParts,
+    kSectionOps,
+    kSectionQueries
 };
 inline constexpr uint32_t kRecordWords[] = {sizeof(SymbolRecord) / 4,
                                             sizeof(RuleRecord) / 4,
@@ -24,7 +27,10 @@ inline constexpr uint32_t kRecordWords[] = {sizeof(SymbolRecord) / 4,
                                             sizeof(CodeWord) / 4,
                                             1,
                                             sizeof(vec4) / 4,
-                                            sizeof(Value) / 4};
+                                            sizeof(Value) / 4,
+                                            sizeof(PatternPart) / 4,
+                                            sizeof(PatternOp) / 4,
+                                            1};
 
 // Where in a record of that section Values stand (in words); a code word's immediate is patched too, but is none.
 std::span<const uint32_t> valueOffsets(uint32_t section);

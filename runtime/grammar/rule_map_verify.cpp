@@ -41,7 +41,11 @@ class Verifier {
                  counts_[kSectionExtrudes] <= kMaxExtrudes,
              "section sizes");
         // Recursion of roofs ends by the expander's limit on depth.
-        if (ok() && !map_.roofs()) lists();
+        if (ok() && map_.kind() == GrammarKind::plants) lists();
+        for (uint32_t i = 0; i < counts_[kSectionParts] && ok(); ++i) part(get<PatternPart>(kSectionParts, i));
+        for (uint32_t i = 0; i < counts_[kSectionOps] && ok(); ++i) op(get<PatternOp>(kSectionOps, i));
+        for (uint32_t i = 0; i < counts_[kSectionQueries] && ok(); ++i) query(get<uint32_t>(kSectionQueries, i));
+        need(counts_[kSectionQueries] <= kMaxQueries, "too many queries of fields");
         for (uint32_t i = 0; i < counts_[kSectionValues] && ok(); ++i) value(get<Value>(kSectionValues, i));
         return error_;
     }
@@ -84,6 +88,7 @@ class Verifier {
         layers(s.layers);
     }
     void rule(const RuleRecord& r) {
+        if (map_.patterns()) return patternRule(r);
         const bool roof = r.kind >= kRuleExtrude;
         need(r.kind <= kRuleShape && (!roof || map_.roofs()) && (!map_.roofs() || r.kind != kRuleMarch),
              "a rule's kind");
@@ -106,6 +111,50 @@ class Verifier {
         for (uint32_t i = 0; ok() && i < r.successorCount; ++i)
             continuing += get<SuccessorRecord>(kSectionSuccessors, r.firstSuccessor + i).flags & kSuccessorContinues;
         need(continuing <= 1, "a rule with two continuations");
+    }
+    // A production: what stands behind a set names one of those before it.
+    void patternRule(const RuleRecord& r) {
+        const uint32_t sets = r.extrude & 0xFFFFu, pieces = r.extrude >> 16;
+        need(r.kind == kRulePattern && r.successorCount <= kMaxParts &&
+                 inRange(r.firstSuccessor, r.successorCount, counts_[kSectionParts]),
+             "a production");
+        uint32_t foundPieces = 0, foundSets = 0;
+        for (uint32_t i = 0; ok() && i < r.successorCount; ++i) {
+            const PatternPart p = get<PatternPart>(kSectionParts, r.firstSuccessor + i);
+            need(p.prereq == kNoIndex || p.prereq < foundSets, "what a part of a production waits for");
+            if (p.kind == kPartSymbol) continue;
+            need(p.set == foundSets || (foundSets > 0 && p.set == foundSets - 1), "a set of a production");
+            foundSets = std::max(foundSets, p.set + 1);
+            ++foundPieces;
+        }
+        need(foundSets == sets && foundPieces == pieces, "the sets of a production");
+    }
+    void part(const PatternPart& p) {
+        need(p.kind <= kPartTested && inRange(p.firstOp, p.opCount, counts_[kSectionOps]) && p.opCount <= kMaxOps &&
+                 p.priority <= kMaxPriority,
+             "a part of a production");
+        if (p.kind == kPartSymbol) {
+            need(p.symbol < counts_[kSectionSymbols], "a part's symbol");
+            if (!ok()) return;
+            const SymbolRecord target = get<SymbolRecord>(kSectionSymbols, p.symbol);
+            need(p.argCount == target.argCount && p.nameHash == target.nameHash, "a part's symbol");
+        } else {
+            need(p.mesh < 256 && p.argCount <= 3, "a piece");
+        }
+        code(p.code);
+        sites(p.firstSite, p.siteCount);
+        layers(p.layers);
+        for (const Value& v : p.args) value(v);
+    }
+    void op(const PatternOp& o) {
+        need(o.kind < kOpKinds, "a scope command");
+        code(o.code);
+        sites(o.firstSite, o.siteCount);
+        layers(o.layers);
+        for (const Value& v : o.values) value(v);
+    }
+    void query(uint32_t q) {
+        need(queryField(q) < map_.fields().size() && queryQuantity(q) < kQuantities, "a query of a field");
     }
     void roofRule(const RuleRecord& r) {
         uint32_t parts = 1, values = 0;
@@ -218,6 +267,10 @@ bool RuleMapAccess::meshesWithin(const RuleMap& map, const CompileOptions& optio
     }
     for (uint32_t i = 0; i < count(map, kSectionTerminals); ++i)
         if (record<TerminalRecord>(map, kSectionTerminals, i).mesh >= options.meshes.size()) return false;
+    for (uint32_t i = 0; i < count(map, kSectionParts); ++i) {
+        const PatternPart part = record<PatternPart>(map, kSectionParts, i);
+        if (part.kind != kPartSymbol && part.mesh >= options.meshesOfPatterns().size()) return false;
+    }
     return true;
 }
 
@@ -259,6 +312,8 @@ std::string RuleMapAccess::verify(const RuleMap& map) {
         v.need(sane(p.minimum) && sane(p.maximum) && p.minimum < p.maximum, "a parameter's range");
         for (int k = 0; k < 3; ++k) v.need(sane(p.standard[k]), "a parameter's default");
     }
+    v.need(map.kind_ <= GrammarKind::patterns && map.fields_.size() <= kMaxFields, "the kind of grammar");
+    for (const FieldInfo& f : map.fields_) v.need(f.symmetry >= 1 && f.symmetry <= kMaxSymmetry, "a field");
     v.need(slots <= kMaxParams && map.contexts_.size() <= kMaxLayers, "too many parameters or layers");
     for (const ContextInfo& c : map.contexts_) v.need(c.fill >= 0 && c.fill <= 1, "a layer's default");
     return v.ok() ? v.run() : v.error();

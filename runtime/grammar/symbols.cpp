@@ -163,16 +163,20 @@ static void reportUnknownNames(Compilation& c) {
         });
 }
 
-bool isRoofGrammar(const Module& module) {
-    bool roofs = false, marches = false;
+GrammarKind kindOf(const Module& module) {
+    bool roofs = false, marches = false, patterns = !module.fields.empty();
     for (const Rule& rule : module.rules)
         forEachElement(rule.successor, [&](const Element& e) {
             const BlockInfo* block = findBlock(e.name);
+            const CommandInfo* command = findCommand(e.name);
+            patterns = patterns || (command != nullptr && isOfPatterns(command->kind));
             if (block == nullptr) return;
+            patterns = patterns || block->kind == Block::lock;
             marches = marches || block->kind == Block::marching;
             roofs = roofs || isRoofBlock(block->kind) || (block->kind == Block::repeat && e.args.size() > 1);
         });
-    return roofs && !marches;
+    if (marches) return GrammarKind::plants;
+    return roofs ? GrammarKind::roofs : patterns ? GrammarKind::patterns : GrammarKind::plants;
 }
 
 void collectSymbols(Compilation& c) {

@@ -15,6 +15,7 @@ constexpr BlockInfo kBlocks[] = {
     {"Marching", Block::marching, 2, 3, 1, 2, "Marching(length, angle, condition) {TopSucc, ExtrudedSucc}"},
     {"Branch", Block::branch, 0, 1, 1, kMany, "Branch(n) {A, B, ...} with n successors"},
     {"Repeat", Block::repeat, 1, 1, 1, 1, "Repeat(n) {successors}"},
+    {"Lock", Block::lock, 0, 0, 1, kMaxPieces, "Lock {Piece | Piece | ...}"},
     {"Extrude", Block::extrude, 1, 1, 1, 2, "Extrude(height) {Face, Top}"},
     {"Join", Block::join, 3, 3, 1, 3, "Join(height, v1, v2) {Clipped, Support, Top}"},
     {"Project", Block::project, 2, 2, 1, 1, "Project(axis1, axis2) {Projected}"},
@@ -27,6 +28,15 @@ constexpr CommandInfo kCommands[] = {
     {"S", Command::size, 1, 1, "S(width)"},
     {"T", Command::translate, 1, 2, "T(along) or T(along, lift)"},
     {"R", Command::rotate, 1, 2, "R(turn) or R(turn, pitch)"},
+    {"Rx", Command::rotateX, 1, 1, "Rx(angle)"},
+    {"Ry", Command::rotateY, 1, 1, "Ry(angle)"},
+    {"Rz", Command::rotateZ, 1, 1, "Rz(angle)"},
+    {"RX", Command::rotateX, 1, 1, "RX(angle)"},
+    {"RY", Command::rotateY, 1, 1, "RY(angle)"},
+    {"RZ", Command::rotateZ, 1, 1, "RZ(angle)"},
+    {"RS", Command::rotateZ, 1, 1, "RS(angle)"},
+    {"I", Command::place, 1, 1, "I(\"mesh\")"},
+    {"IC", Command::placeTested, 1, 1, "IC(\"mesh\")"},
     {"Tint", Command::tint, 1, 1, "Tint(0..1)"},
     {"Colour", Command::colour, 1, 3, "Colour(param) or Colour(r, g, b)"},
     {"Color", Command::colour, 1, 3, "Color(param) or Color(r, g, b)"},
@@ -40,6 +50,7 @@ constexpr CommandInfo kCommands[] = {
 
 constexpr FunctionInfo kFunctions[] = {
     {"rand", Function::random, 0, 2, "rand() or rand(from, to)"},
+    {"Rand", Function::random, 0, 2, "Rand() or Rand(from, to)"},
     {"min", Function::minimum, 2, 2, "min(a, b)"},
     {"max", Function::maximum, 2, 2, "max(a, b)"},
     {"clamp", Function::clamp, 3, 3, "clamp(x, least, greatest)"},
@@ -150,13 +161,22 @@ constexpr struct {
     {"shedRoof", 4},  {"gambrelRoof", 5}, {"mansardRoof", 6}, {"flatRoof", 7},
 };
 
+// In the order of kQuery..., and the names that Li 2011 §4.3 has for some.
+constexpr struct {
+    std::string_view name;
+    uint32_t query;
+} kQueryWords[] = {
+    {"value1", kQueryValue1}, {"value2", kQueryValue2},  {"Xangle1", kQueryAngle1}, {"Xangle2", kQueryAngle2},
+    {"sure", kQuerySure},     {"length1", kQueryValue1}, {"length2", kQueryValue2}, {"maxcurv", kQueryValue1},
+    {"mincurv", kQueryValue2}};
+
 constexpr DirectionInfo kDirections[] = {
     {"up", 0, 1, 0}, {"down", 0, -1, 0}, {"east", 1, 0, 0}, {"west", -1, 0, 0}, {"south", 0, 0, 1}, {"north", 0, 0, -1},
 };
 
 constexpr std::string_view kOtherWords[] = {"pi",  "true",    "false",         "texCoord", "otherwise",
                                             "and", "or",      "not",           "param",    "context",
-                                            "let", "include", "discontinuous", "C0",       "C1"};
+                                            "let", "include", "field", "discontinuous", "C0",       "C1"};
 
 template <class Row, size_t n>
 const Row* findRow(const Row (&rows)[n], std::string_view name) {
@@ -201,6 +221,15 @@ const AccessorInfo* findRoofAccessor(std::string_view name) {
 const float* findRoofWord(std::string_view name) {
     const auto* row = findRow(kRoofWords, name);
     return row != nullptr ? &row->value : nullptr;
+}
+uint32_t findQuery(std::string_view name) {
+    const auto* row = findRow(kQueryWords, name);
+    return row != nullptr ? row->query : kNoIndex;
+}
+std::vector<std::string> queryNames() {
+    std::vector<std::string> all;
+    for (const auto& q : kQueryWords) all.emplace_back(q.name);
+    return all;
 }
 const DirectionInfo* findDirection(std::string_view name) {
     return findRow(kDirections, name);

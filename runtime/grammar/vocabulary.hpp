@@ -11,7 +11,7 @@
 // the lowering; lexer and parser stay as they are.
 namespace espalier::grammar {
 
-enum class Block : uint8_t { marching, branch, repeat, extrude, join, project, explode, split };
+enum class Block : uint8_t { marching, branch, repeat, lock, extrude, join, project, explode, split };
 // Kinds that make a grammar one of roofs; Repeat with an axis does so too.
 inline bool isRoofBlock(Block kind) {
     return kind >= Block::extrude;
@@ -25,7 +25,29 @@ struct BlockInfo {
 };
 const BlockInfo* findBlock(std::string_view name);
 
-enum class Command : uint8_t { size, translate, rotate, tint, colour, drop, moss, shape, push, pop, null };
+enum class Command : uint8_t {
+    size,
+    translate,
+    rotate,
+    rotateX,
+    rotateY,
+    rotateZ,
+    tint,
+    colour,
+    drop,
+    moss,
+    shape,
+    place,
+    placeTested,
+    push,
+    pop,
+    null
+};
+// Commands that only grammars of patterns have.
+inline bool isOfPatterns(Command kind) {
+    return kind == Command::rotateX || kind == Command::rotateY || kind == Command::rotateZ ||
+           kind == Command::place || kind == Command::placeTested;
+}
 struct CommandInfo {
     std::string_view name;
     Command kind;
@@ -82,6 +104,10 @@ const DirectionInfo* findDirection(std::string_view name);
 
 // A name that declarations and rules may not take, and why; empty if free.
 std::string reservedFor(std::string_view name);
+
+// What F.name asks of a field F, as kQuery... counts; kNoIndex: nothing.
+uint32_t findQuery(std::string_view name);
+std::vector<std::string> queryNames();
 
 std::vector<std::string> functionNames();
 std::vector<std::string> accessorNames();

@@ -282,7 +282,7 @@ FN bool decides(uint phase, bool arrived) { return arrived || phase == kPhaseDer
 // the place, which the machine is told (frame: of its instance),
 FN void tellPlace(MACHINE_PARAM ExpandEnv env, WorldFrame frame, GrowthSite site, uint grammar, IN(WalkState) trial,
                   uint steps) {
-    giveInputs(MACHINE env, frame, grammar, site.inputs, site.layers, placeOf(env, trial), site.depth,
+    giveInputs(MACHINE env.surfaces, env.layers, env.grammars, frame, grammar, site.inputs, site.layers, placeOf(env, trial), site.depth,
                site.stepBase + steps, trial.walk.arc);
 }
 // and rules, one after another.

@@ -156,8 +156,8 @@ FN WorldFrame frameOf(SurfaceBuf surfaces, uint instance, uint inputs) {
 }
 
 // Fills the slots that the masks name. `depth`, `step`, `arc`: see rule_map.h.
-FN void giveInputs(MACHINE_PARAM ExpandEnv env, WorldFrame f, uint grammar, uint inputs, uint layers, Place p, uint depth,
-                   uint step, float arc) {
+FN void giveInputs(MACHINE_PARAM SurfaceBuf surfaces, LayerBuf painted, RuleMapBuf grammars, WorldFrame f, uint grammar,
+                   uint inputs, uint layers, Place p, uint depth, uint step, float arc) {
     SET_SLOT(kSlotTexCoord, p.uv.x);
     SET_SLOT(kSlotTexCoord + 1u, p.uv.y);
     SET_SLOT(kSlotDepth, float(depth));
@@ -165,11 +165,11 @@ FN void giveInputs(MACHINE_PARAM ExpandEnv env, WorldFrame f, uint grammar, uint
     SET_SLOT(kSlotArc, arc);
     if ((kFeatures & kFeatureSurface) != 0u) {
         if ((inputs & kInputCurvature) != 0u) {
-            SET_SLOT(kSlotCurvature, curvatureAt(env.surfaces, p.instance, p.level, p.uv) * f.perMetre);
+            SET_SLOT(kSlotCurvature, curvatureAt(surfaces, p.instance, p.level, p.uv) * f.perMetre);
         }
         for (uint left = layers; left != 0u; left = left & (left - 1u)) {
             uint i = lowestBit(left);
-            SET_SLOT(kSlotLayer + i, layerAt(env.layers, p.instance, env.grammars.v[grammar].layerOf[i] & 15u, p.uv));
+            SET_SLOT(kSlotLayer + i, layerAt(painted, p.instance, grammars.v[grammar].layerOf[i] & 15u, p.uv));
         }
     }
     if ((kFeatures & kFeatureWorld) == 0u || (inputs & kInputsOfWorld) == 0u) return;
@@ -191,7 +191,7 @@ FN void giveInputs(MACHINE_PARAM ExpandEnv env, WorldFrame f, uint grammar, uint
     }
     for (uint left = inputs & 15u; left != 0u; left = left & (left - 1u)) {
         uint i = lowestBit(left);
-        vec4 d = env.grammars.v[grammar].directions[i];
+        vec4 d = grammars.v[grammar].directions[i];
         SET_SLOT(kSlotAngle + i, angleInSurface(heading, normal, vec3(d.x, d.y, d.z)));
     }
 }

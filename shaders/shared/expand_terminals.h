@@ -358,7 +358,7 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, IN(StemChunk)
         SET_SLOT(kSlotRadius, 0.0f);
         SET_SLOT(kSlotCount, 0.0f);
         WorldFrame world = frameOf(env.surfaces, place.instance, inputs);
-        giveInputs(MACHINE env, world, grammar, inputs, layers, place, brief.depth & 0xFFFFu, step, node.arc);
+        giveInputs(MACHINE env.surfaces, env.layers, env.grammars, world, grammar, inputs, layers, place, brief.depth & 0xFFFFu, step, node.arc);
         uint cell = 0u;
         if ((kFeatures & kFeatureDensity) != 0u && env.status.v[0].leafDensityCap > 0.0f)
             cell = densityCell(env, chunk.branch.seed, node.place, place.uv);

@@ -1,18 +1,16 @@
 // A tangent field as kernels read it: one texel for each of a surface's finest level (Li 2011 §4.2).
 #ifndef ESPALIER_SHARED_FIELD_RECORDS_H
 #define ESPALIER_SHARED_FIELD_RECORDS_H
+#include "shaders/shared/rule_map.h"
 #include "shaders/shared/surface_lookup.h"
 
 ESPALIER_BEGIN
 
-CONST_UINT(kMaxFields, 4u);   // that a grammar reads
-
-// 8 bytes. power: exp(i N angle), 2 × 16 bit snorm, the angle from the texel's du, counterclockwise as seen from outside;
-// shorter than 1 where the directions around differ, 0 at a singularity and where there is no surface. tensor: two
-// halves, the mean of the eigenvalues in bits 15..0 and half of their difference in bits 31..16 (of a vector field its
-// length).
+// 8 bytes. direction: octahedral, 2 × 16 bit snorm, one of the field's N directions, in object space; any where there is
+// no surface. tensor: two halves, the mean of the eigenvalues in bits 15..0 and half of their difference in bits 31..16
+// (of a vector field its length).
 struct FieldTexel {
-    uint power;
+    uint direction;
     uint tensor;
 };
 STATIC_SIZE(FieldTexel, 8);
@@ -34,19 +32,35 @@ FN float unpackHalf(uint h) {
     return (h & 0x8000u) != 0u ? -size : size;
 }
 
+// The angle in (-pi / n, pi / n] that leads to the nearest of n directions.
+FN float nearestTurn(float angle, float n) {
+    float turns = angle * n * 0.159154943f;
+    return (turns - floorExact(turns + 0.5f)) * divExact(6.28318531f, n);
+}
+
+// The angle from one tangent direction to another, counterclockwise as seen from outside.
+FN float angleBetween(vec3 normal, vec3 from, vec3 to) {
+    return atan2Exact(dot3(cross3(normal, from), to), dot3(from, to));
+}
+
 // What a field says at a place.
 struct FieldSample {
-    vec2 power;          // as FieldTexel::power; its length tells how sure the direction is
+    float angle;         // from the direction asked about to the nearest of the field's
+    float sure;          // 1 where the directions around agree, 0 at a singularity and where there is no surface
     float mean, deviator;
 };
 
-// Bilinear among the texels of the chart; a place without any gives zeros.
-FN FieldSample fieldAt(SurfaceBuf surfaces, FieldRef field, uint instance, uint chart, vec2 uv) {
+// Bilinear among the texels of the chart: their directions as N-th powers, each laid into the plane of `normal`. along:
+// a tangent direction there, object space.
+FN FieldSample fieldAt(SurfaceBuf surfaces, FieldRef field, uint instance, uint chart, vec2 uv, vec3 normal, vec3 along) {
     FieldSample f = {};
-    f.power = vec2(0.0f);
+    f.angle = 0.0f;
+    f.sure = 0.0f;
     f.mean = 0.0f;
     f.deviator = 0.0f;
+    float n = float(field.symmetry);
     float sum = 0.0f;
+    vec2 power = vec2(0.0f);
     Cell c = cellAt(float(field.size), uv);
     float fx = limited(c.fx, 0.0f, 1.0f);
     float fy = limited(c.fy, 0.0f, 1.0f);
@@ -56,13 +70,17 @@ FN FieldSample fieldAt(SurfaceBuf surfaces, FieldRef field, uint instance, uint 
         float share = ((i & 1u) != 0u ? fx : 1.0f - fx) * ((i & 2u) != 0u ? fy : 1.0f - fy);
         share = owned ? larger(share, 1e-6f) : 0.0f;
         FieldTexel t = field.texels.v[at];
-        f.power = f.power + vec2(unpackSnorm16(t.power & 0xFFFFu), unpackSnorm16(t.power >> 16u)) * share;
+        float s = 0.0f;
+        float k = 0.0f;
+        sinCosExact(angleBetween(normal, along, unpackOct(t.direction)) * n, s, k);
+        power = power + vec2(k, s) * share;
         f.mean = f.mean + unpackHalf(t.tensor & 0xFFFFu) * share;
         f.deviator = f.deviator + unpackHalf(t.tensor >> 16u) * share;
         sum = sum + share;
     }
     float k = sum > 0.0f ? rcpExact(sum) : 0.0f;
-    f.power = f.power * k;
+    f.angle = divExact(atan2Exact(power.y, power.x), n);
+    f.sure = length2(power) * k;
     f.mean = f.mean * k;
     f.deviator = f.deviator * k;
     return f;

@@ -252,6 +252,67 @@ struct TerminalRecord {
 };
 STATIC_SIZE(TerminalRecord, 128);
 
+// Patterns (Li 2011 §3, §4.3): a rule of kind kRulePattern is a production, a row of parts. Each part has a chain of
+// scope commands that leads from the production's own scope to the part's; the commands' numbers are worked out one
+// after the other, each where the ones before have led. RuleRecord: firstSuccessor and successorCount name the parts,
+// `extrude` holds how many sets they make in bits 15..0 and of how many pieces in bits 31..16.
+CONST_UINT(kRulePattern, 11u);
+CONST_UINT(kMaxParts, 64u);
+CONST_UINT(kMaxOps, 64u);
+CONST_UINT(kMaxPriority, 7u);
+CONST_UINT(kMaxFields, 4u);      // that a grammar reads
+CONST_UINT(kMaxSymmetry, 12u);
+CONST_UINT(kMaxPieces, 16u);     // of one set
+
+// Scope commands. T: metres along x and y over the surface, z off it; R: radians; S: metres.
+CONST_UINT(kOpTranslate, 0u);
+CONST_UINT(kOpRotateX, 1u);
+CONST_UINT(kOpRotateY, 2u);
+CONST_UINT(kOpRotateZ, 3u);
+CONST_UINT(kOpSize, 4u);
+CONST_UINT(kOpKinds, 5u);
+struct PatternOp {
+    uint kind;
+    CodeRange code;
+    Value values[3];
+    uint inputs, layers;         // needed by `code`
+    uint firstSite, siteCount;   // drawn before `code`, with the production's key
+};
+STATIC_SIZE(PatternOp, 52);
+
+CONST_UINT(kPartSymbol, 0u);     // args: the symbol's
+CONST_UINT(kPartPlaced, 1u);     // a piece that stands whatever is there; args: its colour, negative: the mesh's own
+CONST_UINT(kPartTested, 2u);     // a piece that stands if it meets nothing that stands
+struct PatternPart {
+    uint kind;
+    uint firstOp, opCount;
+    uint symbol, nameHash, ordinal, argCount;
+    uint mesh;
+    uint set;            // of a piece: the number of its set in the production; pieces of a set follow each other
+    uint prereq;         // the part is made only if this set of the production stands; kNoIndex: in any case
+    CodeRange code;      // of args, where the chain has led
+    Value args[4];
+    uint inputs, layers;
+    uint firstSite, siteCount;
+    uint priority;       // of a symbol: the higher, the earlier it is derived
+};
+STATIC_SIZE(PatternPart, 100);
+
+// What is asked of a field: bits 7..0 the field, 15..8 a quantity. Query i stands in slot kSlotQuery + i.
+CONST_UINT(kMaxQueries, 20u);
+CONST_UINT(kSlotQuery, 73u);
+CONST_UINT(kInputFields, 1u << 19u);   // the queries' slots
+CONST_UINT(kQueryValue1, 0u);    // the larger eigenvalue; of vectors their length
+CONST_UINT(kQueryValue2, 1u);    // the lesser one
+CONST_UINT(kQueryAngle1, 2u);    // from the scope's x axis to the direction of the first, radians, (-pi / N, pi / N]
+CONST_UINT(kQueryAngle2, 3u);    // and to a quarter turn from it
+CONST_UINT(kQuerySure, 4u);      // 1 where directions around agree, 0 at a singularity
+CONST_UINT(kQuantities, 5u);
+FN uint queryField(uint q) { return q & 255u; }
+FN uint queryQuantity(uint q) { return q >> 8u; }
+
+BUFFER(PatternOpBuf, PatternOp)
+BUFFER(PatternPartBuf, PatternPart)
 BUFFER(CodeBuf, CodeWord)
 BUFFER(SymbolRecordBuf, SymbolRecord)
 BUFFER(RuleRecordBuf, RuleRecord)
@@ -295,9 +356,13 @@ struct RuleMapRef {
     uint layerOf[16];
     ValueBuf values;
     uint valueCount;
-    uint roofs;          // 1: a grammar of roofs
+    uint kind;           // GrammarKind
+    PatternPartBuf parts;
+    PatternOpBuf ops;
+    UintBuf queries;
+    uint queryCount, fieldCount;
 };
-STATIC_SIZE(RuleMapRef, 232);
+STATIC_SIZE(RuleMapRef, 264);
 BUFFER(RuleMapBuf, RuleMapRef)     // [grammar]
 
 ESPALIER_END

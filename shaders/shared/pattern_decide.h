@@ -1,0 +1,258 @@
+// Which sets stand: pieces that meet, rounds of decisions, and what is derived next (Li 2011 §4.4).
+#ifndef ESPALIER_SHARED_PATTERN_DECIDE_H
+#define ESPALIER_SHARED_PATTERN_DECIDE_H
+#include "shaders/shared/pattern_derive.h"
+
+ESPALIER_BEGIN
+
+// Whether the segment from p to q goes through the triangle's inside.
+FN bool segmentMeets(vec3 p, vec3 q, vec3 a, vec3 b, vec3 c) {
+    vec3 n = cross3(b - a, c - a);
+    float dp = dot3(n, p - a);
+    float dq = dot3(n, q - a);
+    if (!((dp > 0.0f && dq < 0.0f) || (dp < 0.0f && dq > 0.0f))) return false;
+    vec3 d = q - p;
+    float u = dot3(d, cross3(a - p, b - p));
+    float v = dot3(d, cross3(b - p, c - p));
+    float w = dot3(d, cross3(c - p, a - p));
+    return (u > 0.0f && v > 0.0f && w > 0.0f) || (u < 0.0f && v < 0.0f && w < 0.0f);
+}
+FN bool trianglesMeet(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 f) {
+    return segmentMeets(a, b, d, e, f) || segmentMeets(b, c, d, e, f) || segmentMeets(c, a, d, e, f) ||
+           segmentMeets(d, e, a, b, c) || segmentMeets(e, f, a, b, c) || segmentMeets(f, d, a, b, c);
+}
+
+FN uint fewer(uint a, uint b) { return a < b ? a : b; }
+FN vec3 placedPoint(PatternPiece p, vec3 v) { return p.position + p.x * v.x + p.y * v.y + p.z * v.z; }
+FN float largestSide(PatternPiece p) {
+    return sqrtExact(larger(larger(dot3(p.x, p.x), dot3(p.y, p.y)), dot3(p.z, p.z))) * 1.00001f;
+}
+
+FN bool clustersMeet(PatternEnv env, PatternPiece p, PatternMesh m, uint i, PatternPiece q, PatternMesh n, uint j) {
+    uint endP = fewer(m.triangleCount, (i + 1u) * kClusterTriangles);
+    uint endQ = fewer(n.triangleCount, (j + 1u) * kClusterTriangles);
+    bool meet = false;
+    for (uint s = i * kClusterTriangles; s < endP && !meet; ++s) {
+        uint at = m.firstVertex + 3u * s;
+        vec3 a = placedPoint(p, env.corners.v[at]);
+        vec3 b = placedPoint(p, env.corners.v[at + 1u]);
+        vec3 c = placedPoint(p, env.corners.v[at + 2u]);
+        for (uint t = j * kClusterTriangles; t < endQ && !meet; ++t) {
+            uint to = n.firstVertex + 3u * t;
+            meet = trianglesMeet(a, b, c, placedPoint(q, env.corners.v[to]), placedPoint(q, env.corners.v[to + 1u]),
+                                 placedPoint(q, env.corners.v[to + 2u]));
+        }
+    }
+    return meet;
+}
+
+// Whether a point of the world is inside of a piece: a ray from it leaves through an odd number of triangles.
+FN bool isWithin(PatternEnv env, PatternPiece p, PatternMesh m, vec3 point) {
+    vec3 off = point - p.position;
+    vec3 o = vec3(divExact(dot3(off, p.x), dot3(p.x, p.x)), divExact(dot3(off, p.y), dot3(p.y, p.y)),
+                  divExact(dot3(off, p.z), dot3(p.z, p.z)));
+    vec3 away = o - m.centre;
+    if (m.closed == 0u || dot3(away, away) > m.radius * m.radius) return false;
+    vec3 d = vec3(0.5377f, 0.7311f, 0.4197f);
+    bool odd = false;
+    for (uint t = 0u; t < m.triangleCount; ++t) {
+        vec3 a = env.corners.v[m.firstVertex + 3u * t] - o;
+        vec3 b = env.corners.v[m.firstVertex + 3u * t + 1u] - o;
+        vec3 c = env.corners.v[m.firstVertex + 3u * t + 2u] - o;
+        float u = dot3(d, cross3(a, b));
+        float v = dot3(d, cross3(b, c));
+        float w = dot3(d, cross3(c, a));
+        bool right = u > 0.0f && v > 0.0f && w > 0.0f;
+        bool left = u < 0.0f && v < 0.0f && w < 0.0f;
+        vec3 n = cross3(b - a, c - a);
+        bool ahead = (dot3(n, a) > 0.0f) == (dot3(n, d) > 0.0f);
+        odd = (right || left) && ahead ? !odd : odd;
+    }
+    return odd;
+}
+
+// Whether two pieces run through each other, or one is within the other.
+FN bool piecesMeet(PatternEnv env, PatternPiece p, PatternPiece q) {
+    PatternMesh m = env.meshes.v[p.mesh & 0xFFFFu];
+    PatternMesh n = env.meshes.v[q.mesh & 0xFFFFu];
+    vec4 sphere = sphereOf(env, q);
+    float scaleP = largestSide(p);
+    float scaleQ = largestSide(q);
+    bool meet = false;
+    for (uint i = 0u; i < m.clusterCount && !meet; ++i) {
+        vec4 k = env.clusters.v[m.firstCluster + i];
+        vec3 c = placedPoint(p, vec3(k.x, k.y, k.z));
+        float r = k.w * scaleP;
+        vec3 off = vec3(sphere.x, sphere.y, sphere.z) - c;
+        if (dot3(off, off) > (r + sphere.w) * (r + sphere.w)) continue;
+        for (uint j = 0u; j < n.clusterCount && !meet; ++j) {
+            vec4 l = env.clusters.v[n.firstCluster + j];
+            vec3 apart = placedPoint(q, vec3(l.x, l.y, l.z)) - c;
+            float reach = r + l.w * scaleQ;
+            if (dot3(apart, apart) <= reach * reach) meet = clustersMeet(env, p, m, i, q, n, j);
+        }
+    }
+    if (!meet) meet = isWithin(env, q, n, placedPoint(p, m.within)) || isWithin(env, p, m, placedPoint(q, n.within));
+    return meet;
+}
+
+// Whether piece `other` counts against the set, and what follows if they meet. False: the set has fallen.
+FN bool meetOne(PatternEnv env, PatternPiece piece, vec4 sphere, uint other) {
+    PatternPiece q = env.pieces.v[other];
+    if (q.set == piece.set) return true;
+    bool before = q.set < env.status.v[0].firstSet;
+    uint state = loadShared(env.sets.v[q.set].state);
+    if (state == kSetFallen || (before && state != kSetStands)) return true;
+    if (!before && !comesBefore(env.sets.v[q.set], env.sets.v[piece.set])) return true;
+    vec4 s = sphereOf(env, q);
+    vec3 off = vec3(s.x, s.y, s.z) - vec3(sphere.x, sphere.y, sphere.z);
+    float reach = s.w + sphere.w;
+    if (dot3(off, off) > reach * reach || !piecesMeet(env, q, piece)) return true;
+    if (before) {
+        settle(env, piece.set, kSetFallen);
+        return false;
+    }
+    uint edge = atomicAdd(env.status.v[0].edges, 1u);
+    if (edge < env.status.v[0].edgeRoom) {
+        env.edges.v[edge].set = q.set;
+        env.edges.v[edge].next = atomicExchange(env.sets.v[piece.set].met, edge);
+    }
+    return true;
+}
+
+// Piece i of the wave against all that stands or may come to stand before it.
+FN void lookAround(PatternEnv env, uint i) {
+    PatternPiece piece = env.pieces.v[env.status.v[0].firstPiece + i];
+    bool goesOn = (piece.mesh & kPieceFree) == 0u && loadShared(env.sets.v[piece.set].state) == kSetOpen;
+    vec4 sphere = sphereOf(env, piece);
+    for (uint left = goesOn ? env.status.v[0].classes : 0u; left != 0u && goesOn; left = left & (left - 1u)) {
+        uint c = lowestBit(left);
+        float side = cellSide(c);
+        float reach = sphere.w + 0.5f * side;
+        int x0 = cellIndex(sphere.x - reach, side);
+        int y0 = cellIndex(sphere.y - reach, side);
+        int z0 = cellIndex(sphere.z - reach, side);
+        uint nx = uint(cellIndex(sphere.x + reach, side) - x0) + 1u;
+        uint ny = uint(cellIndex(sphere.y + reach, side) - y0) + 1u;
+        uint nz = uint(cellIndex(sphere.z + reach, side) - z0) + 1u;
+        for (uint n = 0u; n < nx * ny * nz && goesOn; ++n) {
+            int x = x0 + int(n % nx);
+            int y = y0 + int((n / nx) % ny);
+            int z = z0 + int(n / (nx * ny));
+            uint other = env.cells.v[cellAt3(env, c, x, y, z)];
+            // Cells share lists where their hashes agree: a piece is looked at from its own cell only.
+            while (other != kNoIndex && goesOn) {
+                vec4 s = sphereOf(env, env.pieces.v[other]);
+                bool here = classOf(s.w) == c && cellIndex(s.x, side) == x && cellIndex(s.y, side) == y &&
+                            cellIndex(s.z, side) == z;
+                if (here) goesOn = meetOne(env, piece, sphere, other);
+                other = env.pieces.v[other].next;
+            }
+        }
+    }
+}
+
+// One round for set i of the wave: its fate, if those that it hangs on have theirs.
+FN void decideSet(PatternEnv env, uint i) {
+    uint at = env.status.v[0].firstSet + i;
+    if (loadShared(env.sets.v[at].state) != kSetOpen) return;
+    uint prereq = env.sets.v[at].prereq;
+    uint before = prereq == kNoIndex ? kSetStands : loadShared(env.sets.v[prereq].state);
+    if (before == kSetOpen) return;
+    bool stands = before == kSetStands;
+    bool waits = false;
+    for (uint e = env.sets.v[at].met; e != kNoIndex && stands; e = env.edges.v[e].next) {
+        uint state = loadShared(env.sets.v[env.edges.v[e].set].state);
+        stands = state != kSetStands;
+        waits = waits || state == kSetOpen;
+    }
+    if (!stands || !waits) settle(env, at, stands ? kSetStands : kSetFallen);
+}
+
+FN bool waveDecided(PatternEnv env) { return env.status.v[0].decided == env.status.v[0].sets - env.status.v[0].firstSet; }
+FN bool foundRoom(PatternEnv env) {
+    return env.status.v[0].sets <= env.status.v[0].setRoom && env.status.v[0].pieces <= env.status.v[0].pieceRoom &&
+           env.status.v[0].edges <= env.status.v[0].edgeRoom && env.status.v[0].mostItems <= env.status.v[0].itemRoom;
+}
+
+// Shape i of the wave, once all sets have their fate: what its production makes that goes on.
+FN void goOn(PatternEnv env, uint i) {
+    PatternShape shape = env.shapes.v[i];
+    if (shape.rule == kNoIndex) return;
+    RuleRecord rule = env.grammars.v[shape.grammar].rules.v[shape.rule];
+    uint standing = 0u;
+    uint sets = rule.extrude & 0xFFFFu;
+    for (uint s = 0u; s < sets; ++s) standing += env.sets.v[shape.firstSet + s].state == kSetStands ? 1u : 0u;
+    atomicAdd(env.status.v[0].shapes, 1u);
+    if (standing > 0u) atomicAdd(env.status.v[0].standing, standing);
+    if (sets > standing) atomicAdd(env.status.v[0].fallen, sets - standing);
+    bool deep = shape.depth >= env.status.v[0].mostDepth;
+    if (deep && rule.successorCount > sets) atomicAdd(env.status.v[0].deep, 1u);
+    for (uint k = 0u; k < rule.successorCount && !deep; ++k) {
+        uint at = rule.firstSuccessor + k;
+        if (env.grammars.v[shape.grammar].parts.v[at].kind != kPartSymbol) continue;
+        uint prereq = env.grammars.v[shape.grammar].parts.v[at].prereq;
+        if (prereq != kNoIndex && env.sets.v[shape.firstSet + prereq].state != kSetStands) continue;
+        uint priority = env.grammars.v[shape.grammar].parts.v[at].priority;
+        uint slot = atomicAdd(env.status.v[0].waiting[priority], 1u);
+        if (slot >= env.status.v[0].itemRoom) {
+            atomicMax(env.status.v[0].mostItems, slot + 1u);
+            continue;
+        }
+        PatternItem item = {};
+        item.key = shape.key;
+        item.scope = shape.scope;
+        for (uint a = 0u; a < 4u; ++a) item.args[a] = shape.args[a];
+        item.grammar = shape.grammar;
+        item.part = at;
+        item.symbol = 0u;
+        item.depth = shape.depth + 1u;
+        item.seed = shape.seed;
+        env.items.v[priority * env.status.v[0].itemRoom + slot] = item;
+    }
+}
+
+// Between waves, by one invocation: takes the symbols of the highest priority, unless the wave before isn't decided yet,
+// or something has found no room.
+FN void beginWave(PatternEnv env) {
+    bool room = foundRoom(env);
+    bool goes = room && waveDecided(env);
+    uint count = 0u;
+    uint priority = 0u;
+    for (uint p = 0u; p < kPatternPriorities && goes; ++p) {
+        uint waits = env.status.v[0].waiting[p];
+        priority = waits > 0u ? p : priority;
+        count = waits > 0u ? waits : count;
+    }
+    env.status.v[0].deriveGroups[0] = 0u;
+    env.status.v[0].pieceGroups[0] = 0u;
+    if (!goes) {   // only sets are looked at once more
+        env.status.v[0].setGroups[0] = room ? env.status.v[0].setGroups[0] : 0u;
+        return;
+    }
+    uint groups = (count + kPatternGroup - 1u) / kPatternGroup;
+    env.status.v[0].deriveGroups[0] = groups;
+    env.status.v[0].shapeGroups[0] = groups;
+    env.status.v[0].wave = count;
+    env.status.v[0].setGroups[0] = 0u;
+    env.status.v[0].firstSet = env.status.v[0].sets;
+    env.status.v[0].firstPiece = env.status.v[0].pieces;
+    env.status.v[0].decided = 0u;
+    env.status.v[0].priority = priority;
+    if (count > 0u) {
+        env.status.v[0].waiting[priority] = 0u;
+        env.status.v[0].waves += 1u;
+    }
+}
+
+// What a piece that stands adds to the hash: its key, its mesh and its place, to the bit.
+FN uvec2 hashOfPiece(PatternEnv env, uint i) {
+    PatternPiece p = env.pieces.v[i];
+    if (env.sets.v[p.set].state != kSetStands) return uvec2(0u);
+    uvec2 h = hashWord(hashKey(env.sets.v[p.set].key), env.sets.v[p.set].number);
+    h = hashVec3(hashVec3(hashVec3(hashVec3(hashWord(h, p.mesh), p.x), p.y), p.z), p.position);
+    return hashWord(h, p.colour);
+}
+
+ESPALIER_END
+#endif

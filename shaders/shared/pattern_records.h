@@ -1,0 +1,160 @@
+// What patterns are derived from and what they leave (Li 2011): shapes with a scope each, sets of pieces that stand or
+// fall together, and the wave in which they are decided.
+//
+// A wave takes all symbols of the highest priority that wait. Each becomes a shape: its scope, its rule, room for the
+// rule's sets. Pieces of sets take their places and are looked up against all that stand and against the wave's other
+// pieces; then rounds decide set after set, and what stands lets the symbols behind it wait for a later wave. The result
+// is that of deciding one set after the other in the order of (wave, production's key, number in the production),
+// whatever the schedule: a set falls if one stands that meets it, and a set of its own wave counts only if it comes
+// before it in this order.
+#ifndef ESPALIER_SHARED_PATTERN_RECORDS_H
+#define ESPALIER_SHARED_PATTERN_RECORDS_H
+#include "shaders/shared/expand_env.h"
+#include "shaders/shared/field_records.h"
+
+ESPALIER_BEGIN
+
+CONST_UINT(kPatternGroup, 64u);       // invocations of a group in every kernel of patterns
+CONST_UINT(kPatternPriorities, 8u);
+CONST_UINT(kPatternRounds, 6u);       // that are recorded for a wave; a wave that needs more takes another turn
+CONST_UINT(kPieceClasses, 32u);       // pieces are looked up by size: class c holds radii up to kPieceLeast * 2^c
+CONST_FLOAT(kPieceLeast, 1e-4f);      // metres
+CONST_UINT(kClusterTriangles, 8u);    // triangles of a mesh come in runs of so many, each within a sphere
+
+// Where a shape stands (Li 2011 §3, Fig. 3): a frame on a surface and a size. The frame's axes are `turn`, a unit
+// quaternion (x, y, z, w), applied to (heading, left, outside) of the walk; the origin lies `lift` metres of the world
+// off the surface.
+struct PatternScope {
+    Walk walk;           // arc: not used
+    float lift;
+    vec4 turn;
+    vec3 size;           // metres of the world
+};
+STATIC_SIZE(PatternScope, 60);
+
+// A symbol that waits. It is born where `part` leads from the scope of the production that names it.
+struct PatternItem {
+    u64 key;             // of that production; of a seed: its own
+    PatternScope scope;  // likewise
+    float args[4];       // likewise
+    uint grammar;
+    uint part;           // kNoIndex: a seed, whose symbol is `symbol`
+    uint symbol;
+    uint depth;          // productions before it
+    uint seed;
+};
+STATIC_SIZE(PatternItem, 104);
+
+// A symbol that has been derived, for as long as its wave goes on.
+struct PatternShape {
+    u64 key;
+    PatternScope scope;
+    float args[4];
+    uint grammar;
+    uint rule;           // kNoIndex: none holds, or it has come to an end of the surface
+    uint firstSet;       // of its sets in the list of all
+    uint depth;
+    uint seed;
+};
+STATIC_SIZE(PatternShape, 104);
+
+CONST_UINT(kSetOpen, 0u);
+CONST_UINT(kSetStands, 1u);
+CONST_UINT(kSetFallen, 2u);
+// Pieces that stand or fall together. Earlier in the order: lesser (key, number).
+struct PatternSet {
+    u64 key;             // of its production
+    uint number;         // in that
+    uint shape;          // of its wave
+    uint prereq;         // set before it in the production that has to stand; kNoIndex: none
+    uint state;
+    uint met;            // first of its list of earlier sets that it meets, in PatternEnv::edges; kNoIndex: none
+    uint spare;
+};
+STATIC_SIZE(PatternSet, 32);
+
+// A mesh in its place, in the world: a point p of the mesh goes to position + x p.x + y p.y + z p.z, where the mesh's
+// y points up, as in glTF.
+struct PatternPiece {
+    vec3 x, y, z;
+    vec3 position;
+    uint mesh;           // bits 15..0; bit 31: it doesn't meet others
+    uint set;
+    uint colour;         // 3 × 10 bits, linear, red first; kNoIndex: the mesh's own
+    uint next;           // in its cell of the grid; kNoIndex: none
+};
+STATIC_SIZE(PatternPiece, 64);
+CONST_UINT(kPieceFree, 0x80000000u);
+
+struct PatternEdge {
+    uint set;            // an earlier set of the same wave
+    uint next;
+};
+STATIC_SIZE(PatternEdge, 8);
+
+// The triangles by which a mesh meets others, in its own space.
+struct PatternMesh {
+    vec3 centre;         // of a sphere around all
+    float radius;
+    uint firstCluster, clusterCount;
+    uint firstVertex;    // three for each triangle, cluster after cluster
+    uint triangleCount;
+    vec3 within;         // a point inside of it
+    uint closed;         // 1: it has an inside
+};
+STATIC_SIZE(PatternMesh, 48);
+
+BUFFER(PatternItemBuf, PatternItem)
+BUFFER(PatternShapeBuf, PatternShape)
+BUFFER(PatternSetBuf, PatternSet)
+BUFFER(PatternPieceBuf, PatternPiece)
+BUFFER(PatternEdgeBuf, PatternEdge)
+BUFFER(PatternMeshBuf, PatternMesh)
+BUFFER(PatternVec4Buf, vec4)
+BUFFER(PatternVec3Buf, vec3)
+
+// Counters. What is taken may exceed its room: then nothing was written beyond it, and the host grows again with more.
+struct PatternStatus {
+    uint sets, pieces, edges;                       // taken, of all waves
+    uint itemRoom, setRoom, pieceRoom, edgeRoom;    // itemRoom: of each priority
+    uint waiting[8];                                // symbols that wait, by priority
+    uint mostItems;                                 // most that waited in one priority
+    uint wave, waves;                               // items of the wave that goes on; how many have begun
+    uint priority;                                  // that it takes its items from
+    uint firstSet, firstPiece;                      // of the wave
+    uint decided;                                   // of its sets
+    uint deriveGroups[3], shapeGroups[3], pieceGroups[3], setGroups[3];   // VkDispatchIndirectCommand
+    uint classes;                                   // bit c: there are pieces of class c
+    uint rounds;                                    // of decisions, all waves together: as many as were of use
+    uint shapes, standing, fallen, ended, deep;     // symbols derived; sets; symbols at a surface's end, beyond maxDepth
+    uint mostDepth;
+    uint hash[2];
+};
+STATIC_SIZE(PatternStatus, 176);
+BUFFER(PatternStatusBuf, PatternStatus)
+
+struct PatternEnv {
+    SurfaceBuf surfaces;
+    LayerBuf layers;
+    RuleMapBuf grammars;
+    FieldBuf fields;         // [(grammar * instances + instance) * kMaxFields + field]
+    PatternItemBuf items;    // [priority * itemRoom + i]
+    PatternShapeBuf shapes;  // [itemRoom]
+    PatternSetBuf sets;
+    PatternPieceBuf pieces;
+    PatternEdgeBuf edges;
+    UintBuf cells;           // first piece of each cell, kNoIndex: none; a power of two of them
+    PatternMeshBuf meshes;
+    PatternVec4Buf clusters; // spheres of meshes' runs of triangles
+    PatternVec3Buf corners;  // of their triangles
+    PatternStatusBuf status;
+    uint instances;
+    uint cellMask;
+};
+STATIC_SIZE(PatternEnv, 120);
+BUFFER(PatternEnvBuf, PatternEnv)
+
+FN bool comesBefore(PatternSet a, PatternSet b) { return a.key < b.key || (a.key == b.key && a.number < b.number); }
+
+ESPALIER_END
+#endif

@@ -1,0 +1,139 @@
+// Grammars of patterns: the texts of Li 2011, what they compile to, and what is refused.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "runtime/grammar/grammar.hpp"
+#include "runtime/grammar/rule_map_layout.hpp"
+
+using namespace espalier;
+
+namespace {
+
+CompileOptions patternOptions() {
+    CompileOptions o;
+    o.pieces = {{"torus", false}, {"star", false}, {"cylinder", false}, {"ico1", false}, {"ico2", false}};
+    return o;
+}
+RuleMap patternMap(const std::string& text) {
+    Result<RuleMap> map = compileGrammar(text, patternOptions());
+    REQUIRE_MESSAGE(map, (map ? "" : map.failure().text()));
+    return std::move(map.value());
+}
+std::string patternRefusal(const std::string& text) {
+    const Result<RuleMap> map = compileGrammar(text, patternOptions());
+    return map ? "" : map.failure().text();
+}
+std::vector<PatternPart> partsOf(const RuleMap& map, const char* symbol) {
+    const SymbolRecord s = RuleMapAccess::record<SymbolRecord>(map, kSectionSymbols, *map.findSymbol(symbol));
+    const RuleRecord r = RuleMapAccess::record<RuleRecord>(map, kSectionRules, s.firstRule);
+    std::vector<PatternPart> parts;
+    for (uint32_t i = 0; i < r.successorCount; ++i)
+        parts.push_back(RuleMapAccess::record<PatternPart>(map, kSectionParts, r.firstSuccessor + i));
+    return parts;
+}
+
+const char* const kLattice = R"(
+1: Axiom ~> P
+2: P ~> [RZ(30) T(0.6,0,0) A] [RZ(150) T(0.6,0,0) A] [RZ(-90) T(0.6,0,0) A]
+3: A ~> B [ T(0.6, 0, 0) RZ(60) T(0.6, 0, 0) A ]
+    [ T(0.6, 0, 0) RZ(-60) T(0.6, 0, 0) A ];
+4: B ~> S(1.0, 1.0, 0.6) IC("torus") ;
+)";
+
+const char* const kCracks = R"(
+angles degrees
+start = S(0.5, 0.5, 0.5) F
+F = [RS(Rand(-5, 5)) T(Rand(0.4, 0.45), 0, 0) M A]
+    [RS(Rand(85, 95)) T(Rand(0.4, 0.45), 0, 0) M A]
+    [RS(Rand(175, 185)) T(Rand(0.4, 0.45), 0, 0) M A]
+    [RS(Rand(265, 275)) T(Rand(0.4, 0.45), 0, 0) M A];
+A = RS(Rand(-5, 5)) T(Rand(0.6, 0.65), 0, 0) M C
+C = [RS(Rand(-5, 5)) T(Rand(0.6, 0.65), 0, 0) M A]
+    [RS(Rand(-85, -95)) T(Rand(0.4, 0.45), Rand(0.3, 0.35), 0) M A] : 0.2;
+C = RS(Rand(-5, 5)) T(Rand(0.6, 0.65), 0, 0) M A : 0.1;
+M = [ S(0.1, 0.55, 0.1) RS(90) I("cylinder.obj")]
+    [ S(0.1, 0.1, 0.1) T(0, Rand(1, 1.2), 0) I("ico1.obj")]
+    [ S(0.1, 0.1, 0.1) T(0, Rand(-1, -1.2), 0) I("ico2.obj")];
+)";
+
+}  // namespace
+
+TEST_CASE("the paper's texts compile but for the alphabet") {
+    const RuleMap lattice = patternMap(kLattice);
+    CHECK(lattice.patterns());
+    CHECK(lattice.symbols()[lattice.startSymbol()].name == "Axiom");
+    const RuleMap cracks = patternMap(kCracks);
+    CHECK(cracks.patterns());
+    CHECK(partsOf(cracks, "F").size() == 8);
+    CHECK(partsOf(cracks, "M").size() == 3);
+}
+
+TEST_CASE("a symbol that only places a piece is looked ahead into, and what stands behind hangs on it") {
+    const auto parts = partsOf(patternMap(kLattice), "A");
+    REQUIRE(parts.size() == 3);
+    CHECK(parts[0].kind == kPartTested);
+    CHECK(parts[0].set == 0);
+    CHECK(parts[1].kind == kPartSymbol);
+    CHECK(parts[1].prereq == 0);
+    CHECK(parts[2].prereq == 0);
+    // As in Li 2011 §4.4: B stands in front of the piece and is derived in any case, D and E hang on it.
+    const auto more = partsOf(patternMap("A -> B IC(\"star\") D E\nB -> T(1) A\nD -> T(1) A\nE -> T(2) A"), "A");
+    REQUIRE(more.size() == 4);
+    CHECK(more[0].prereq == kNoIndex);
+    CHECK(more[2].prereq == 0);
+    CHECK(more[3].prereq == 0);
+    const auto deep = partsOf(patternMap("A -> B C D\nB -> T(1) A\nC -> F\nF -> IC(\"star\")\nD -> T(1) A"), "A");
+    REQUIRE(deep.size() == 3);
+    CHECK(deep[1].kind == kPartTested);
+    CHECK(deep[2].prereq == 0);
+}
+
+TEST_CASE("a Lock is one set of several pieces") {
+    const auto parts =
+        partsOf(patternMap("Tile -> Lock { Stone | [T(1) IC(\"star\")] | Cap } Tile\nStone -> IC(\"torus\")\n"
+                         "Cap -> S(2) I(\"ico1\")"),
+                "Tile");
+    REQUIRE(parts.size() == 4);
+    for (int i : {0, 1, 2}) {
+        CHECK(parts[i].set == 0);
+        CHECK(parts[i].kind == kPartTested);
+    }
+    CHECK(parts[3].prereq == 0);
+}
+
+TEST_CASE("fields, their queries and priorities") {
+    const RuleMap map = patternMap(R"(
+angles degrees
+field flow : tensor "Growth"
+field lie : vector
+field bend : curvature
+G : flow.value1 >= 0 and lie.length1 > 0.2 -> Rz(F1.Xangle1) I("star") G priority 2
+G : bend.mincurv < 0 -> I("torus"))");
+    REQUIRE(map.fields().size() == 3);
+    CHECK(map.fields()[0].label == "Growth");
+    CHECK(map.fields()[1].symmetry == 1);
+    CHECK(map.fields()[2].curvature);
+    CHECK(map.ref().queryCount == 4);
+    CHECK(partsOf(map, "G")[1].priority == 2);
+    const std::vector<uint8_t> bytes = map.save();
+    Result<RuleMap> again = RuleMap::load(bytes, "saved");
+    REQUIRE_MESSAGE(again, (again ? "" : again.failure().text()));
+    CHECK(again.value().growsAs(map));
+}
+
+TEST_CASE("mistakes in patterns are told with their place") {
+    CHECK(patternRefusal("A -> IC(\"tours\") A").find("grammar:1:9: A: there is no mesh \"tours\" (did you mean 'torus'?)") !=
+          std::string::npos);
+    CHECK(patternRefusal("A -> Lock { B | IC(\"star\") }\nB -> T(1) IC(\"star\") B").find("without condition or choice") !=
+          std::string::npos);
+    CHECK(patternRefusal("A -> Extrude(1) {I(\"star\")}").size() > 0);
+    CHECK(patternRefusal("field f : tensor\nA : f.valeu1 > 0 -> I(\"star\")").find("did you mean 'value1'") !=
+          std::string::npos);
+    CHECK(patternRefusal("field f : spinor\nA -> I(\"star\")").find("not 'spinor'") != std::string::npos);
+    CHECK(patternRefusal("A -> [ I(\"star\")").find("'[' without ']'") != std::string::npos);
+    CHECK(patternRefusal("A -> T(1) Rx(2) A").find("no rule places a mesh") != std::string::npos);
+    CHECK(patternRefusal("A -> I(\"star\") A priority 9").find("from 0 to 7") != std::string::npos);
+    CHECK(patternRefusal("V -> Marching(1, 0, true) {V, Rx(1) S(0.1) Shape(\"bark\")}").find("belongs to patterns") !=
+          std::string::npos);
+}
