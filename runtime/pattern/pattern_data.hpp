@@ -43,6 +43,7 @@ struct PatternStats {
     uint32_t shapes = 0, tried = 0, standing = 0, fallen = 0;
     uint32_t ended = 0, deep = 0;    // symbols at the surface's end; beyond maxDepth
     uint32_t waves = 0, rounds = 0;
+    uint32_t pieces = 0;             // that stand
     double ms = 0;
 };
 

@@ -66,6 +66,7 @@ GrownPattern standingOf(std::span<const PatternPiece> pieces, std::span<const Pa
     s.deep = status.deep;
     s.waves = status.waves;
     s.rounds = status.rounds;
+    s.pieces = uint32_t(grown.pieces.size());
     return grown;
 }
 

@@ -82,6 +82,7 @@ EspResult create(const EspContextDef& def, EspContext** out) {
 
     const std::filesystem::path terminals = def.terminals ? def.terminals : contentFolder() / "terminals.glb";
     context->roofMeshFile = std::filesystem::path(terminals).replace_filename("roofs.glb");
+    context->patterns.file = std::filesystem::path(terminals).replace_filename("pieces.glb");
     if (EspResult readable = checkReadable(context.get(), terminals.c_str()))
         return failAlone(readable, "terminal meshes: " + context->error);
     Result<TerminalData> meshes = readTerminals(terminals);

@@ -23,6 +23,7 @@ Result<RuleMap> compile(const EspContext& context, const EspGrammarDef& def) {
     options.fileName = file.string();
     options.readInclude = includesBeside(file);
     options.roofMeshes = context.roofMeshNames;
+    options.pieces = context.patterns.names;
     return compileGrammar({def.text, def.length}, options, context.cacheFolder);
 }
 
@@ -50,8 +51,9 @@ Status bindLayers(EspContext& context, LoadedGrammar& grammar, uint32_t old) {
 // parameters are taken over by name.
 Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, uint32_t oldId) {
     const auto begin = std::chrono::steady_clock::now();
-    // Without their file, grammars of roofs know no meshes; ivy doesn't mind.
+    // Without their files, grammars of roofs and of patterns know no meshes; ivy doesn't mind.
     (void)knowRoofMeshes(context);
+    (void)knowPieces(context);
     Result<RuleMap> map = compile(context, def);
     if (!map) return map.failure();
     LoadedGrammar grammar;
@@ -104,6 +106,10 @@ std::string lostSymbol(const EspContext& context, uint32_t grammarId, const Rule
         if (!symbol || !map.symbols()[*symbol].grows) lost = seed.symbol;
     });
     return lost;
+}
+
+const char* kindName(GrammarKind kind) {
+    return kind == GrammarKind::roofs ? "roofs" : kind == GrammarKind::patterns ? "patterns" : "plants";
 }
 
 // What the grammar is of use for, if it can't be of the other kind for that; else null.
@@ -172,11 +178,10 @@ EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGramm
         if (!lost.empty())
             return fail(context, ESP_INVALID_CONTENT,
                         grammar->name + ": no rule grows from '" + lost + "', which planted seeds start with");
-        const char* use = grammar->map.roofs() != old->map.roofs() ? useOf(*context, id.id) : nullptr;
+        const char* use = grammar->map.kind() != old->map.kind() ? useOf(*context, id.id) : nullptr;
         if (use)
             return fail(context, ESP_INVALID_CONTENT,
-                        grammar->name +
-                            (grammar->map.roofs() ? ": would make roofs, yet " : ": would make plants, yet ") + use);
+                        grammar->name + ": would make " + kindName(grammar->map.kind()) + ", yet " + use);
         context->compileMs = grammar->compileMs;
         if (takeText(*old, *grammar)) {
             binding.done();

@@ -32,7 +32,7 @@ struct Maps {
 
     void add(const RuleMap& map, const Buffer& words, const std::vector<uint32_t>& layerOf) {
         RuleMapRef ref = map.refAt(words.address());
-        if (map.roofs()) {  // keeps its number, but growth has nothing to do with it
+        if (map.kind() != GrammarKind::plants) {  // keeps its number, but growth has nothing to do with it
             ref = RuleMapRef{};
             ref.features = kFeatureKnown;
         }
@@ -68,6 +68,7 @@ Planting plantingOf(const EspContext& context, const Maps& maps) {
     Planting out;
     std::vector<uint32_t> frozenIds;
     context.seeds.forEach([&](uint32_t id, const PlantedSeed& planted) {
+        if (beginsPattern(context, planted)) return;
         Seed seed{};
         seed.key = seedKey(planted);
         if (planted.frozen) {
@@ -202,7 +203,8 @@ EspResult espUpdate(EspContext* context) {
         const EspResult town = updateTown(*context);
         const std::string why = context->error;
         const EspResult plants = updatePlants(*context);
-        if (town == ESP_OK) return plants;
+        const EspResult patterns = plants == ESP_OK ? updatePatterns(*context) : plants;
+        if (town == ESP_OK) return patterns;
         context->error = why;
         return town;
     });

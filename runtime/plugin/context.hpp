@@ -16,6 +16,7 @@
 #include "runtime/gpu/device.hpp"
 #include "runtime/plugin/contents.hpp"
 #include "runtime/plugin/id_table.hpp"
+#include "runtime/plugin/patterns.hpp"
 #include "runtime/plugin/surface_changes.hpp"
 #include "runtime/render/renderer.hpp"
 
@@ -43,6 +44,7 @@ struct EspContext {
     std::vector<espalier::TerminalMesh> roofMeshNames;
     std::filesystem::path roofMeshFile;
     std::optional<espalier::LoadedTown> town;
+    espalier::ContextPatterns patterns;
     uint64_t grammarRevisions = 0, towns = 0;
     espalier::ContextNumber number;
     espalier::SurfaceTable surfaces{number.value()};

@@ -8,10 +8,12 @@
 #include <string>
 
 #include "runtime/expand/cpu_growth.hpp"
+#include "runtime/expand/growth.hpp"
 #include "runtime/gpu/commands.hpp"
 #include "runtime/plugin/self_check_picture.hpp"
 #include "runtime/plugin/self_check_scene.hpp"
 #include "runtime/render/renderer.hpp"
+#include "runtime/roof_growth/roof_growth.hpp"
 #include "runtime/surface/gpu_surface.hpp"
 
 namespace espalier {

@@ -7,6 +7,7 @@
 
 #include "runtime/emit/emit.hpp"
 #include "runtime/render/ground.hpp"
+#include "runtime/render/piece_draw.hpp"
 #include "runtime/render/props.hpp"
 #include "runtime/render/roof_draw.hpp"
 #include "runtime/surface/surface.hpp"

@@ -78,6 +78,18 @@ Status Renderer::removeProps() {
     return Done{};
 }
 
+Status Renderer::loadPieces(TerminalData meshes) {
+    auto made = PieceDraw::create(device_, std::move(meshes), kSceneFormat, kDepthFormat, targets_.samples);
+    if (!made) return made.failure();
+    pieces_ = std::move(*made);
+    return Done{};
+}
+
+Status Renderer::placePieces(std::vector<PatternPiece> pieces) {
+    require(pieces_ || pieces.empty(), "pieces have meshes");
+    return pieces_ ? pieces_->place(std::move(pieces)) : Status(Done{});
+}
+
 Models::Drawn Renderer::modelsDrawn(const DrawInputs& inputs) const {
     const bool onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
     return {{&now_.scene->model, &now_.scene->modelFoot},
@@ -201,6 +213,11 @@ void Renderer::drawGrowth(Commands& commands, const DrawInputs& inputs, const Fr
         if (isQuick(now_.shading)) part.emplace(commands, "draw roofs");
         roofs_->draw(pass, *now_.frame, &shadowMap_, &shadowSampler_, now_.shading);
     }
+    if (now_.patterned) {
+        std::optional<Pass> part;
+        if (isQuick(now_.shading)) part.emplace(commands, "draw patterns");
+        pieces_->draw(pass, *now_.frame, {shadowMap_, shadowSampler_}, now_.shading);
+    }
     if (now_.ahead) drawSurroundings(pass, inputs, post);
     if (!now_.hosted) drawSky(pass, frame, post);
     if (now_.glass) {
@@ -263,6 +280,7 @@ Status Renderer::draw(Commands& commands, const DrawInputs& inputs, const DrawTa
 void Renderer::forget() {
     emit_.forget();
     if (props_) props_->forget();
+    if (pieces_) pieces_->forget();
     merge_.reset();
     depthTiles_.forget();
     targets_.color = Image();
@@ -287,6 +305,7 @@ Status Renderer::drawFrame(Commands& commands, const DrawInputs& inputs, const D
         merge_ = std::move(*made);
     }
     now_.furnished = props_ && !props_->empty() && !now_.hosted;
+    now_.patterned = pieces_ && !pieces_->empty();
 
     FrameRecord frame = makeFrame(inputs, target.width, target.height);
     if (Status s = keepShadows(commands, inputs, frame); !s) return s;
@@ -296,6 +315,8 @@ Status Renderer::drawFrame(Commands& commands, const DrawInputs& inputs, const D
     if (Status s = upload(commands, frame); !s) return s;
     if (now_.furnished)
         if (Status s = props_->choose(commands, frame); !s) return s;
+    if (now_.patterned)
+        if (Status s = pieces_->choose(commands, frame, inputs.look.lodPixels); !s) return s;
     PostPush push{};
     push.rcpSize = {1.0f / float(target.width), 1.0f / float(target.height)};
     push.ground = inputs.ground.drawn && !now_.hosted ? 1 : 0;

@@ -39,6 +39,10 @@ class Renderer {
     // Models of props, their variants sorted by kind, and where they stand; in place of all that were. Waits.
     Status setProps(TerminalData models, std::vector<PropPlace> places);
     Status removeProps();
+    // Meshes that patterns are drawn with, kind 0 being none. Once, before the first pieces.
+    Status loadPieces(TerminalData meshes);
+    // Pieces of patterns, in place of all that stood.
+    Status placePieces(std::vector<PatternPiece> pieces);
     // What lies on the ground that is drawn; without texels: nothing.
     Status setSite(const SiteMap& map) { return ground_.setSite(device_, map); }
 
@@ -102,7 +106,10 @@ class Renderer {
     void drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post);
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
     // A number for the models and props of this recording.
-    uint64_t standing() const { return models_.revision() + (now_.furnished ? propsRevision_ << 32 : 0); }
+    uint64_t standing() const {
+        return models_.revision() + (now_.furnished ? propsRevision_ << 32 : 0) +
+               (now_.patterned ? pieces_->revision() << 48 : 0);
+    }
     EmitInputs emitInputs(const DrawInputs& inputs) const;
     uint64_t sceneOf(const DrawInputs& inputs);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
@@ -123,6 +130,7 @@ class Renderer {
     Emit emit_;
     std::unique_ptr<RoofDraw> roofs_;
     std::unique_ptr<Props> props_;
+    std::unique_ptr<PieceDraw> pieces_;
     std::unique_ptr<HostMerge> merge_;  // made when a host first has a scene
     Models models_;
     Ground ground_;
@@ -147,7 +155,7 @@ class Renderer {
     bool quickBefore_ = false;  // the picture before was
     // What the recording that goes on, or the last one, is about: none of it outlives the next one's beginning.
     struct {
-        bool grows = false, roofed = false, furnished = false;  // it draws growth, roofs, props
+        bool grows = false, roofed = false, furnished = false, patterned = false;  // growth, roofs, props, patterns
         bool hosted = false;                                    // into a host's scene
         Shading shading = Shading::full;
         ScenePrograms* scene = nullptr;

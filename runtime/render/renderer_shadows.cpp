@@ -52,6 +52,7 @@ void Renderer::drawStanding(DrawPass& pass, const SunView& sun, float error) {
                       error * kShadowModelTexels * sun.width / kShadowSize);
     if (now_.roofed) roofs_->draw(pass, *now_.frame, nullptr, nullptr);
     if (now_.furnished) props_->drawDepth(pass, *now_.frame);
+    if (now_.patterned) pieces_->drawDepth(pass, *now_.frame);
 }
 
 Status Renderer::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
@@ -68,6 +69,8 @@ Status Renderer::drawShadows(Commands& commands, const DrawInputs& inputs, const
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, true, "shadow emit"); !s) return s;
     if (now_.furnished)
         if (Status s = props_->chooseCasters(commands, sun.toClip); !s) return s;
+    if (now_.patterned)
+        if (Status s = pieces_->chooseCasters(commands, sun.toClip, kShadowSize / sun.width); !s) return s;
     const auto draw = [&](Image& image, bool growth) {
         commands.transition(image, ImageState::depthTarget, !growth || !wide_.drawn());  // the map's other half stays
         DrawTargets targets;
@@ -116,6 +119,8 @@ Status Renderer::drawWideShadows(Commands& commands, const DrawInputs& inputs, c
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, true, "shadow emit"); !s) return s;
     if (now_.furnished)
         if (Status s = props_->chooseCasters(commands, sun.toClip); !s) return s;
+    if (now_.patterned)
+        if (Status s = pieces_->chooseCasters(commands, sun.toClip, kShadowSize / sun.width); !s) return s;
     commands.transition(shadowMap_, ImageState::depthTarget, true);
     {
         DrawTargets targets;

@@ -157,6 +157,17 @@ Result<std::vector<Crossing>> GpuSurface::readCrossings(Device& device, size_t c
                   : readArray<Crossing>(device, data_, ref_.crossings, count);
 }
 
+Status GpuSurface::readForFields(Device& device, SurfaceData& out) const {
+    const SurfaceLevel& finest = ref_.levels[0];
+    const size_t texels = size_t(finest.size) * finest.size;
+    out.levels.resize(1);
+    out.levels[0].size = finest.size;
+    return allDone(
+        {assign(out.triangles, readArray<TrianglePlane>(device, data_, ref_.triangles, ref_.triangleCount)),
+         assign(out.levels[0].texels, readArray<Texel>(device, data_, finest.texels, texels)),
+         assign(out.levels[0].aux, readArray<TexelAux>(device, data_, finest.aux, texels))});
+}
+
 Status GpuSurface::readBack(Device& device, SurfaceData& out) const {
     auto read = [&](auto& values, auto buffer, size_t count) -> Status {
         using T = typename std::decay_t<decltype(values)>::value_type;

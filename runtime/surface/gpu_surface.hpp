@@ -26,6 +26,8 @@ class GpuSurface {
     Result<std::vector<Crossing>> readCrossings(Device& device, size_t count) const;
     // What was uploaded of levels (without aux) and crossings; waits for the GPU.
     Status readBack(Device& device, SurfaceData& out) const;
+    // What fields over it need: triangles, and of the finest level texels and aux; waits for the GPU.
+    Status readForFields(Device& device, SurfaceData& out) const;
     // Adds crossings to those of the file in place of the ones added before, and buries texels in place of those
     // before; none: as it was loaded. `base`: what readBack gave. Records refer to them after the next ref(). On
     // failure all is as before.

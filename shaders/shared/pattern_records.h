@@ -11,6 +11,7 @@
 #define ESPALIER_SHARED_PATTERN_RECORDS_H
 #include "shaders/shared/expand_env.h"
 #include "shaders/shared/field_records.h"
+#include "shaders/shared/pattern_piece.h"
 
 ESPALIER_BEGIN
 
@@ -73,19 +74,6 @@ struct PatternSet {
 };
 STATIC_SIZE(PatternSet, 32);
 
-// A mesh in its place, in the world: a point p of the mesh goes to position + x p.x + y p.y + z p.z, where the mesh's
-// y points up, as in glTF.
-struct PatternPiece {
-    vec3 x, y, z;
-    vec3 position;
-    uint mesh;           // bits 15..0; bit 31: it doesn't meet others
-    uint set;
-    uint colour;         // 3 × 10 bits, linear, red first; kNoIndex: the mesh's own
-    uint next;           // in its cell of the grid; kNoIndex: none
-};
-STATIC_SIZE(PatternPiece, 64);
-CONST_UINT(kPieceFree, 0x80000000u);
-
 struct PatternEdge {
     uint set;            // an earlier set of the same wave
     uint next;
@@ -107,7 +95,6 @@ STATIC_SIZE(PatternMesh, 48);
 BUFFER(PatternItemBuf, PatternItem)
 BUFFER(PatternShapeBuf, PatternShape)
 BUFFER(PatternSetBuf, PatternSet)
-BUFFER(PatternPieceBuf, PatternPiece)
 BUFFER(PatternEdgeBuf, PatternEdge)
 BUFFER(PatternMeshBuf, PatternMesh)
 BUFFER(PatternVec4Buf, vec4)

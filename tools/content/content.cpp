@@ -10,6 +10,7 @@
 #include "tools/content/glb.hpp"
 #include "tools/content/leaf.hpp"
 #include "tools/content/noise.hpp"
+#include "tools/content/pieces.hpp"
 #include "tools/content/preview.hpp"
 #include "tools/content/props.hpp"
 #include "tools/content/roof_mesh.hpp"
@@ -141,6 +142,14 @@ Status writeRoofMeshes(const Options& options) {
     return writeGlb(options.directory + "/roofs.glb", glb);
 }
 
+Status writePieces(const Options& options) {
+    const PieceMeshes meshes = makePieceMeshes();
+    Glb glb;
+    glb.materials = {{"rough", -1, -1, 0.9f, 0, false, false}, {"smooth", -1, -1, 0.45f, 0, false, false}};
+    for (const PieceMeshes::Entry& e : meshes.all) glb.meshes.push_back({e.name, &e.mesh, e.material});
+    return writeGlb(options.directory + "/pieces.glb", glb);
+}
+
 Status writeProps(const Options& options) {
     const PropMeshes meshes = makePropMeshes();
     Glb glb;
@@ -181,6 +190,8 @@ Status generate(const Options& options) {
         if (Status s = writeRuin(options); !s) return s;
     if (wanted("roofs"))
         if (Status s = writeRoofMeshes(options); !s) return s;
+    if (wanted("pieces"))
+        if (Status s = writePieces(options); !s) return s;
     if (wanted("props"))
         if (Status s = writeProps(options); !s) return s;
     return wanted("terminals") ? writeTerminals(options) : Status(Done{});

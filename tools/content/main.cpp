@@ -25,8 +25,8 @@ int makeAsAsked(int argc, char** argv) {
     app.add_option("--preview", options.previewDirectory, "folder for pictures of what was made");
     app.add_option("--textures", options.textureSize, "texels a side of the ruin's textures")
         ->check(CLI::IsMember({256, 512, 1024, 2048, 4096}));
-    app.add_option("--only", options.only, "makes one of ruin, roofs, terminals, props instead of all")
-        ->check(CLI::IsMember({"ruin", "roofs", "terminals", "props"}));
+    app.add_option("--only", options.only, "makes one of ruin, roofs, pieces, terminals, props instead of all")
+        ->check(CLI::IsMember({"ruin", "roofs", "pieces", "terminals", "props"}));
     CLI::Option* town =
         app.add_option("--town", options.town, "houses that the site is laid out around, --only or not");
     town->needs(

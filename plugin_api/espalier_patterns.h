@@ -1,0 +1,63 @@
+/* Patterns: pieces that grammars of patterns place on surfaces, along tangent fields (docs/patterns.md). A part of espalier.h,
+ * which includes it; the rules at its top hold here too. A pattern begins at seeds (espalier_plants.h) whose grammar makes
+ * patterns. */
+#ifndef ESPALIER_PATTERNS_H
+#define ESPALIER_PATTERNS_H
+
+#include "espalier.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Fields ------------------------------------------------------------------------------------------------- */
+
+/* What a designer puts on a surface to form a field of directions. */
+typedef enum EspElementKind {
+    ESP_ELEMENT_REGULAR = 0,     /* the field has this direction here */
+    ESP_ELEMENT_WEDGE = 1,       /* the field turns about the place by half a turn, */
+    ESP_ELEMENT_TRISECTOR = 2,   /* by half a turn against the way around, */
+    ESP_ELEMENT_NODE = 3,        /* by a whole turn: directions lead away from the place, */
+    ESP_ELEMENT_CENTRE = 4,      /* likewise: directions lead around the place, */
+    ESP_ELEMENT_SADDLE = 5       /* by a whole turn against the way around */
+} EspElementKind;
+typedef struct EspFieldElement {
+    EspElementKind kind;
+    float position[3];           /* world; the nearest vertex of the surface is meant */
+    float direction[3];          /* world; laid into the surface. A singular element is turned so that this direction is
+                                    one of the field's */
+    float radius;                /* metres within which the element is felt; 0: a tenth of the surface's radius */
+} EspFieldElement;
+typedef struct EspFieldDef {
+    const EspFieldElement* elements;
+    uint32_t elementCount;       /* up to 4,096 */
+    float drift[3];              /* world: the direction that the field leans to where no element says otherwise */
+    float lean;                  /* how much it does; 0: not at all */
+} EspFieldDef;
+ESP_API EspFieldDef espDefaultFieldDef(void);   /* no elements; it leans down by 1 */
+
+/* The field of this name on one surface, which grammars of patterns read that declare a field so; a field of curvature is the
+ * surface's own. def: copied; NULL: as espDefaultFieldDef says, which holds for every surface to begin with. Takes effect with
+ * the next espUpdate. ESP_INVALID_ARGUMENT: there is no such surface, the name is empty, a number isn't finite, or there are
+ * too many elements. Elements of half a turn do nothing where a grammar declares a field of vectors. */
+ESP_API EspResult espSetField(EspContext* context, EspSurface surface, const char* name, const EspFieldDef* def);
+
+/* ---- What has been placed ----------------------------------------------------------------------------------- */
+
+typedef struct EspPatternStats {
+    uint32_t seeds;              /* that patterns begin at */
+    uint32_t shapes;             /* symbols that were derived */
+    uint32_t tried, standing;    /* pieces; sets of pieces that stand or fall together */
+    uint32_t fallen;             /* sets that met others, or hung on such */
+    uint32_t waves, rounds;      /* of derivation; of decisions, all waves together */
+    uint32_t pieces;             /* that stand */
+    uint64_t hash;               /* of all that stands; the same inputs give the same on every device */
+    double ms;                   /* of the last derivation */
+} EspPatternStats;
+ESP_API EspResult espPatternStats(EspContext* context, EspPatternStats* out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,85 @@
+// Fields of surfaces, and what patterns have come to.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr uint32_t kMostElements = 4096;
+
+EspResult checkField(const EspContext* context, const EspFieldDef& def) {
+    if ((def.elementCount > 0 && !def.elements) || def.elementCount > kMostElements)
+        return fail(context, ESP_INVALID_ARGUMENT, "espSetField: null pointer, or more than 4096 elements");
+    if (!finite(def.drift) || !(def.lean >= 0 && def.lean <= 1e6f))
+        return fail(context, ESP_INVALID_ARGUMENT, "espSetField: the drift isn't finite, or 'lean' isn't 0 to 1e6");
+    for (uint32_t i = 0; i < def.elementCount; ++i) {
+        const EspFieldElement& e = def.elements[i];
+        if (!isAmong(e.kind, ESP_ELEMENT_REGULAR, ESP_ELEMENT_SADDLE) || !finite(e.position) || !finite(e.direction) ||
+            !(e.radius >= 0 && e.radius <= 1e9f))
+            return fail(context, ESP_INVALID_ARGUMENT,
+                        "espSetField: element " + std::to_string(i) + " is out of range");
+    }
+    return ESP_OK;
+}
+
+}  // namespace
+}  // namespace espalier
+
+using namespace espalier;
+
+extern "C" {
+
+EspFieldDef espDefaultFieldDef(void) {
+    EspFieldDef def{};
+    const AskedField standard;
+    std::memcpy(def.drift, standard.drift, sizeof def.drift);
+    def.lean = standard.lean;
+    return def;
+}
+
+EspResult espSetField(EspContext* context, EspSurface surface, const char* name, const EspFieldDef* def) {
+    return guarded(context, [&] {
+        if (!context->surfaces.find(surface.id) || !name || !*name)
+            return fail(context, ESP_INVALID_ARGUMENT, "espSetField: no such surface, or no name");
+        ContextPatterns& patterns = context->patterns;
+        const std::pair<uint32_t, std::string> key{surface.id, name};
+        if (!def) {
+            if (patterns.asked.erase(key) > 0) ++patterns.askedNumber;
+            return ESP_OK;
+        }
+        if (EspResult bad = checkField(context, *def)) return bad;
+        AskedField asked;
+        asked.elements.assign(def->elements, def->elements + def->elementCount);
+        std::memcpy(asked.drift, def->drift, sizeof asked.drift);
+        asked.lean = def->lean;
+        asked.number = ++patterns.askedNumber;
+        patterns.asked[key] = std::move(asked);
+        return ESP_OK;
+    });
+}
+
+EspResult espPatternStats(EspContext* context, EspPatternStats* out) {
+    return guarded(context, [&] {
+        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espPatternStats: null pointer");
+        const PatternStats& s = context->patterns.stats;
+        *out = EspPatternStats{};
+        out->seeds = context->patterns.seeds;
+        out->shapes = s.shapes;
+        out->tried = s.tried;
+        out->standing = s.standing;
+        out->fallen = s.fallen;
+        out->waves = s.waves;
+        out->rounds = s.rounds;
+        out->pieces = s.pieces;
+        out->hash = s.hash;
+        out->ms = s.ms;
+        return ESP_OK;
+    });
+}
+
+}  // extern "C"

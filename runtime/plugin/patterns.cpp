@@ -1,0 +1,249 @@
+// Enters: seeds of grammars of patterns, fields that were asked for. Leaves: pieces that the renderer draws.
+#include "runtime/plugin/patterns.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/given.hpp"
+#include "runtime/plugin/seeds.hpp"
+#include "shaders/shared/random.h"
+
+namespace espalier {
+namespace {
+
+constexpr uint32_t kMostCollider = 256;  // triangles by which a mesh meets others, if it has a level of so few
+
+// The level of detail by which a mesh meets others: the finest that isn't too fine.
+const TerminalLod& colliderOf(const TerminalVariant& variant) {
+    for (const TerminalLod& lod : variant.lods)
+        if (lod.indexCount / 3 <= kMostCollider) return lod;
+    return variant.lods.back();
+}
+
+PieceMeshes collidersOf(const TerminalData& data) {
+    PieceMeshes meshes;
+    for (uint32_t kind = 0; kind < data.kinds.size(); ++kind) {
+        const auto variant = std::ranges::find(data.variants, kind, &TerminalVariant::kind);
+        std::vector<glm::vec3> positions;
+        std::vector<uint32_t> indices;
+        if (variant != data.variants.end() && !variant->lods.empty()) {
+            const TerminalLod& lod = colliderOf(*variant);
+            for (uint32_t i = 0; i < lod.vertexCount; ++i)
+                positions.push_back(data.vertices[lod.firstVertex + i].position);
+            indices.assign(data.indices.begin() + lod.firstIndex, data.indices.begin() + lod.firstIndex + lod.indexCount);
+        }
+        meshes.add(positions, indices);
+    }
+    return meshes;
+}
+
+// What patterns are derived from.
+struct PatternPlanting {
+    std::vector<RuleMapRef> maps;
+    std::vector<const RuleMap*> rules;
+    std::vector<Seed> seeds;
+    uint64_t signature = 1;
+};
+
+class Gathering {
+  public:
+    explicit Gathering(const EspContext& context) : context_(context) {}
+
+    PatternPlanting run() {
+        context_.seeds.forEach([&](uint32_t, const PlantedSeed& planted) {
+            if (!beginsPattern(context_, planted) || planted.onBare) return;
+            Seed seed{};
+            seed.key = seedKey(planted);
+            seed.walk = planted.walk;
+            seed.grammar = mapOf(planted);
+            const RuleMap& map = *out_.rules[seed.grammar];
+            seed.symbol = planted.symbol.empty() ? map.startSymbol() : *map.findSymbol(planted.symbol);
+            out_.seeds.push_back(seed);
+            note(seed.key);
+            note(uint64_t(seed.walk.place) << 32 | std::bit_cast<uint32_t>(seed.walk.uv.x));
+            note(uint64_t(std::bit_cast<uint32_t>(seed.walk.uv.y)) << 32 |
+                 std::bit_cast<uint32_t>(seed.walk.direction.x));
+            note(uint64_t(std::bit_cast<uint32_t>(seed.walk.direction.y)) << 32 |
+                 std::bit_cast<uint32_t>(seed.walk.direction.z));
+        });
+        note(context_.tablesRevision);
+        note(context_.patterns.askedNumber);
+        return std::move(out_);
+    }
+
+  private:
+    void note(uint64_t word) { out_.signature = mix64(out_.signature + mix64(word + 1)); }
+
+    uint32_t mapOf(const PlantedSeed& planted) {
+        const uint64_t key = uint64_t(planted.grammar) << 32 | planted.variant;
+        if (const auto known = known_.find(key); known != known_.end()) return known->second;
+        const LoadedGrammar& grammar = *context_.grammars.find(planted.grammar);
+        const GrammarVariant* variant =
+            planted.variant == kNoIndex ? nullptr : &context_.variants[planted.variant];
+        const RuleMap& map = variant ? variant->map : grammar.map;
+        RuleMapRef ref = map.refAt((variant ? variant->words : grammar.words).address());
+        const std::vector<uint32_t>& layerOf = variant ? variant->layerOf : grammar.layerOf;
+        for (size_t i = 0; i < layerOf.size() && i < kMaxLayers; ++i) ref.layerOf[i] = layerOf[i];
+        note(grammar.revision);
+        for (const ParamInfo& param : map.params())
+            for (float value : param.value) note(std::bit_cast<uint32_t>(value));
+        // Which texels it reads isn't known: any stroke may concern it.
+        if (!map.contexts().empty()) note(context_.revision);
+        out_.maps.push_back(ref);
+        out_.rules.push_back(&map);
+        return known_[key] = uint32_t(out_.maps.size()) - 1;
+    }
+
+    const EspContext& context_;
+    std::map<uint64_t, uint32_t> known_;
+    PatternPlanting out_;
+};
+
+Result<FieldGround*> groundOf(EspContext& context, uint32_t id) {
+    FieldGround& ground = context.patterns.ground[id];
+    if (ground.surface) return &ground;
+    const PlacedSurface& placed = *context.surfaces.find(id);
+    auto surface = std::make_unique<SurfaceData>();
+    surface->charts = placed.data.charts;
+    if (Status read = placed.gpu.readForFields(*context.device, *surface); !read) return read.failure();
+    ground.mesh = makeFieldMesh(*surface);
+    ground.surface = std::move(surface);
+    return &ground;
+}
+
+glm::dvec3 turnedBy(const glm::mat4& m, const float v[3]) {
+    return glm::dvec3(glm::mat3(m) * vec(v));
+}
+
+FieldDesign designOf(const AskedField& asked, const PlacedSurface& surface, uint32_t symmetry) {
+    FieldDesign design;
+    design.symmetry = symmetry;
+    design.drift = turnedBy(surface.toObject, asked.drift);
+    design.lean = double(asked.lean);
+    for (const EspFieldElement& e : asked.elements) {
+        const FieldElement element{ElementKind(e.kind), glm::dvec3(surface.toObject * glm::vec4(vec(e.position), 1)),
+                                   turnedBy(surface.toObject, e.direction), double(e.radius / surface.scale)};
+        if (fits(element.kind, symmetry)) design.elements.push_back(element);
+    }
+    return design;
+}
+
+// The field's texels on one surface, made if what was asked for is another than they were made from.
+Result<FieldRef> fieldOn(EspContext& context, uint32_t id, const FieldInfo& info) {
+    const PlacedSurface& surface = *context.surfaces.find(id);
+    Result<FieldGround*> found = groundOf(context, id);
+    if (!found) return found.failure();
+    FieldGround& ground = **found;
+    if (ground.mesh.triangles.empty()) return FieldRef{};
+    static const AskedField kDefault;
+    const auto asked = context.patterns.asked.find({id, info.name});
+    const AskedField& wish = asked != context.patterns.asked.end() ? asked->second : kDefault;
+    MadeField& made = ground.made[info.name + (info.curvature ? "\n" : "")];
+    const bool same = made.texels && made.symmetry == info.symmetry &&
+                      (info.curvature || (made.asked == wish.number && made.toObject == surface.toObject));
+    if (!same) {
+        Result<Field> field = info.curvature ? Result<Field>(curvatureField(ground.mesh))
+                                             : designField(ground.mesh, designOf(wish, surface, info.symmetry));
+        if (!field) return field.failure();
+        Result<Buffer> texels =
+            makeBuffer(*context.device, "field texels", fieldTexels(*ground.surface, ground.mesh, *field));
+        if (!texels) return texels.failure();
+        made = {wish.number, info.symmetry, info.curvature, surface.toObject, std::move(*texels)};
+    }
+    return FieldRef{addressOf<FieldTexelBuf>(made.texels), ground.surface->levels[0].size, made.symmetry};
+}
+
+// [(map * surfaces + instance) * kMaxFields + field]
+Result<std::vector<FieldRef>> fieldTable(EspContext& context, const PatternPlanting& planting) {
+    const uint32_t count = std::max(context.surfaceSlots(), 1u);
+    std::vector<FieldRef> table(planting.maps.size() * count * kMaxFields, FieldRef{});
+    std::vector<std::pair<uint32_t, uint32_t>> surfaces;
+    context.surfaces.forEach([&](uint32_t id, const PlacedSurface& s) { surfaces.emplace_back(id, s.instance); });
+    for (size_t m = 0; m < planting.maps.size(); ++m)
+        for (const auto& [id, instance] : surfaces)
+            for (size_t f = 0; f < planting.rules[m]->fields().size(); ++f) {
+                Result<FieldRef> ref = fieldOn(context, id, planting.rules[m]->fields()[f]);
+                if (!ref) return ref.failure();
+                table[(m * count + instance) * kMaxFields + f] = *ref;
+            }
+    return table;
+}
+
+// Of surfaces that are there no more.
+void forgetGone(EspContext& context) {
+    std::erase_if(context.patterns.ground, [&](const auto& g) { return !context.surfaces.find(g.first); });
+    std::erase_if(context.patterns.asked, [&](const auto& a) { return !context.surfaces.find(a.first.first); });
+}
+
+EspResult derive(EspContext& context, const PatternPlanting& planting) {
+    ContextPatterns& patterns = context.patterns;
+    GrownPattern grown;
+    if (!planting.seeds.empty()) {
+        Result<std::vector<FieldRef>> fields = fieldTable(context, planting);
+        if (!fields) return failWork(&context, fields.failure());
+        PatternInputs inputs;
+        inputs.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
+        inputs.surfaceCount = std::max(context.surfaceSlots(), 1u);
+        inputs.layers = addressOf<LayerBuf>(context.layerTable);
+        inputs.grammars = planting.maps;
+        inputs.fields.v = fields->data();
+        inputs.seeds = planting.seeds;
+        inputs.meshes = &patterns.meshes;
+        Result<GrownPattern> made = growPatternsOnCpu(inputs);
+        if (!made) return failWork(&context, made.failure());
+        grown = std::move(*made);
+    }
+    if (patterns.data) {
+        if (Status loaded = context.renderer->loadPieces(*patterns.data); !loaded) return failGpu(&context, loaded.failure());
+        patterns.data.reset();
+    }
+    const PatternStats stats = grown.stats;
+    if (Status placed = context.renderer->placePieces(std::move(grown.pieces)); !placed)
+        return failGpu(&context, placed.failure());
+    patterns.stats = stats;
+    patterns.seeds = uint32_t(planting.seeds.size());
+    patterns.grownFrom = planting.seeds.empty() ? 0 : planting.signature;
+    return ESP_OK;
+}
+
+}  // namespace
+
+Status knowPieces(EspContext& context) {
+    ContextPatterns& patterns = context.patterns;
+    if (!patterns.names.empty()) return Done{};
+    Result<TerminalData> meshes = readTerminals(patterns.file, {"none"});
+    if (!meshes) return meshes.failure();
+    std::vector<TerminalMesh> names;
+    for (const std::string& kind : meshes->kinds) names.push_back({kind, false});
+    patterns.meshes = collidersOf(*meshes);
+    patterns.names = std::move(names);
+    patterns.data = std::move(*meshes);
+    return Done{};
+}
+
+bool beginsPattern(const EspContext& context, const PlantedSeed& seed) {
+    const LoadedGrammar* grammar = context.grammars.find(seed.grammar);
+    return grammar && grammar->map.patterns();
+}
+
+EspResult updatePatterns(EspContext& context) {
+    ContextPatterns& patterns = context.patterns;
+    bool any = patterns.grownFrom != 0;
+    context.grammars.forEach([&](uint32_t, const LoadedGrammar& grammar) { any = any || grammar.map.patterns(); });
+    if (!any) return ESP_OK;
+    if (Status tables = context.refreshTables(); !tables) return failGpu(&context, tables.failure());
+    if (Status variants = refreshVariants(context); !variants) return failGpu(&context, variants.failure());
+    forgetGone(context);
+    const PatternPlanting planting = Gathering(context).run();
+    const uint64_t wanted = planting.seeds.empty() ? 0 : planting.signature;
+    if (wanted == patterns.grownFrom) return ESP_OK;
+    if (!context.device->lost() && patterns.failed.known({planting.signature, 0}))
+        return patterns.failed.tell(context.error);
+    const EspResult grown = grownOr(context, [&] { return derive(context, planting); });
+    return grown == ESP_OK ? patterns.failed.forget()
+                           : patterns.failed.note({planting.signature, 0}, grown, context.error);
+}
+
+}  // namespace espalier

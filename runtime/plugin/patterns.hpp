@@ -1,0 +1,65 @@
+#pragma once
+
+// Patterns of a context: the pieces there are, fields on surfaces, and what has been derived (patterns.cpp, api_patterns.cpp).
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plugin_api/espalier.h"
+#include "runtime/emit/terminals.hpp"
+#include "runtime/field/field_texels.hpp"
+#include "runtime/gpu/buffer.hpp"
+#include "runtime/pattern/pattern_data.hpp"
+#include "runtime/plugin/contents.hpp"
+
+namespace espalier {
+
+// What a host has said of one field of one surface; in the world.
+struct AskedField {
+    std::vector<EspFieldElement> elements;
+    float drift[3] = {0, -1, 0};
+    float lean = 1;
+    uint64_t number = 0;  // unlike any other that was asked for
+};
+
+// A field as kernels read it.
+struct MadeField {
+    uint64_t asked = 0;  // AskedField::number; 0: the default
+    uint32_t symmetry = 0;
+    bool curvature = false;
+    glm::mat4 toObject{1};  // by which elements and drift were taken into object space
+    Buffer texels;
+};
+
+struct FieldGround {
+    std::unique_ptr<SurfaceData> surface;  // what fields need of it
+    FieldMesh mesh;
+    std::map<std::string, MadeField> made;
+};
+
+struct ContextPatterns {
+    std::filesystem::path file;  // of the pieces' meshes
+    std::vector<TerminalMesh> names;
+    std::optional<TerminalData> data;  // until the renderer has it
+    PieceMeshes meshes;
+    std::map<std::pair<uint32_t, std::string>, AskedField> asked;  // by surface's id and name
+    std::map<uint32_t, FieldGround> ground;                        // by surface's id; made when a pattern first asks
+    uint64_t askedNumber = 0;                                      // of all that has been asked for
+    uint64_t grownFrom = 0;                                        // what the pattern was derived from; 0: nothing stands
+    uint32_t seeds = 0;
+    PatternStats stats;
+    FailedInputs failed;
+};
+
+// Names of the meshes that grammars of patterns may ask for; reads their file the first time.
+Status knowPieces(EspContext& context);
+// Derives patterns anew if something that they depend on has changed; on failure the last ones stand.
+EspResult updatePatterns(EspContext& context);
+// Whether a seed begins a pattern, no plant.
+bool beginsPattern(const EspContext& context, const PlantedSeed& seed);
+
+}  // namespace espalier

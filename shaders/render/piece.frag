@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// Pieces of patterns, under sun and sky.
+#include "shaders/render/light.glsl"
+#include "shaders/render/piece_records.h"
+#include "shaders/render/fade.glsl"
+
+layout(push_constant, scalar) uniform Data { PiecePush push; };
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) flat in vec3 base;
+layout(location = 3) in vec2 shadeFade;
+layout(location = 0) out vec4 color;
+
+void main() {
+    if (fadedOut(shadeFade.y, gl_FragCoord.xy)) discard;
+    vec3 n = normalize(normal);
+    vec3 eye = normalize(frame.eye - position);
+    if (dot(n, eye) < 0.0 && !gl_FrontFacing) n = -n;
+    if (explains) {
+        color = frame.view == kViewOverdraw ? oneFragment()
+                : frame.view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0)
+                : frame.view == kViewLod ? diagnostic(lodColor(push.lod), n) : diagnostic(vec3(0.4), n);
+        return;
+    }
+    vec3 own = base * shadeFade.x;
+    vec3 sun = frame.sunDirection;
+    float facing = max(dot(n, sun), 0.0);
+    float visible = facingSunVisibility(facing, position, n);
+    vec3 direct = frame.sunColor * visible * facing * (own + gloss(n, eye, sun, push.roughness));
+    color = lit(direct, own * skyLight(n));
+}

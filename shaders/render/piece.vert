@@ -1,0 +1,35 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/extensions.glsl"
+// A piece of a pattern: a mesh under three axes and a place.
+#include "shaders/emit/triangle_vertex.glsl"
+#include "shaders/render/frame.glsl"
+#include "shaders/render/piece_records.h"
+
+layout(push_constant, scalar) uniform Data { PiecePush push; };
+layout(set = 0, binding = 10) uniform usamplerBuffer instances;   // four words a texel
+layout(set = 0, binding = 11) uniform usamplerBuffer meshes;      // two words a texel
+layout(location = 0) out vec3 position;
+layout(location = 1) out vec3 normal;
+layout(location = 2) flat out vec3 base;
+layout(location = 3) out vec2 shadeFade;
+
+// Of a piece without a colour of its own.
+const vec3 kPlain = vec3(0.42, 0.39, 0.33);
+
+void main() {
+    int at = 4 * int(push.firstInstance + uint(gl_InstanceIndex));
+    uvec4 a = texelFetch(instances, at), b = texelFetch(instances, at + 1);
+    uvec4 c = texelFetch(instances, at + 2), d = texelFetch(instances, at + 3);
+    vec3 x = uintBitsToFloat(a.xyz), y = uintBitsToFloat(uvec3(a.w, b.xy)), z = uintBitsToFloat(uvec3(b.zw, c.x));
+    int vertex = 3 * gl_VertexIndex;
+    uvec2 p = texelFetch(meshes, vertex).xy, q = texelFetch(meshes, vertex + 1).xy;
+    vec3 v = vec3(uintBitsToFloat(p), uintBitsToFloat(q.x)), n = octahedralToUnit(q.y);
+    position = uintBitsToFloat(c.yzw) + x * v.x + y * v.y + z * v.z;
+    // The axes are at right angles, so their inverse transpose is each over the square of its length.
+    normal = x * (n.x / dot(x, x)) + y * (n.y / dot(y, y)) + z * (n.z / dot(z, z));
+    vec3 own = vec3((uvec3(d.z) >> uvec3(20u, 10u, 0u)) & 1023u) * (1.0 / 1023.0);
+    base = d.z == 0xFFFFFFFFu ? kPlain : own;
+    shadeFade = vec2(uintBitsToFloat(texelFetch(meshes, vertex + 2).x), uintBitsToFloat(d.y));
+    gl_Position = frame.viewProjection * vec4(position, 1.0);
+}
