@@ -42,6 +42,16 @@ ESP_API EspFieldDef espDefaultFieldDef(void);   /* no elements; it leans down by
  * too many elements. Elements of half a turn do nothing where a grammar declares a field of vectors. */
 ESP_API EspResult espSetField(EspContext* context, EspSurface surface, const char* name, const EspFieldDef* def);
 
+/* ---- Grammars ----------------------------------------------------------------------------------------------- */
+
+typedef enum EspGrammarKind { ESP_GRAMMAR_PLANTS = 0, ESP_GRAMMAR_ROOFS = 1, ESP_GRAMMAR_PATTERNS = 2 } EspGrammarKind;
+/* What a grammar makes. ESP_INVALID_ARGUMENT: there is no such grammar. */
+ESP_API EspResult espGrammarKind(const EspContext* context, EspGrammar grammar, EspGrammarKind* out);
+/* The fields that a grammar of patterns declares; the first guides its translations. The name lives as long as the
+ * grammar isn't compiled anew. */
+ESP_API uint32_t espFieldCount(const EspContext* context, EspGrammar grammar);
+ESP_API const char* espFieldName(const EspContext* context, EspGrammar grammar, uint32_t index);
+
 /* ---- What has been placed ----------------------------------------------------------------------------------- */
 
 typedef struct EspPatternStats {

@@ -63,6 +63,26 @@ EspResult espSetField(EspContext* context, EspSurface surface, const char* name,
     });
 }
 
+EspResult espGrammarKind(const EspContext* context, EspGrammar grammar, EspGrammarKind* out) {
+    return guarded(context, [&] {
+        const LoadedGrammar* found = context->grammars.find(grammar.id);
+        if (!found || !out) return fail(context, ESP_INVALID_ARGUMENT, "espGrammarKind: no such grammar, or null");
+        static_assert(uint32_t(GrammarKind::patterns) == ESP_GRAMMAR_PATTERNS);
+        *out = EspGrammarKind(found->map.kind());
+        return ESP_OK;
+    });
+}
+
+uint32_t espFieldCount(const EspContext* context, EspGrammar grammar) {
+    const LoadedGrammar* found = context ? context->grammars.find(grammar.id) : nullptr;
+    return found ? uint32_t(found->map.fields().size()) : 0;
+}
+
+const char* espFieldName(const EspContext* context, EspGrammar grammar, uint32_t index) {
+    const LoadedGrammar* found = context ? context->grammars.find(grammar.id) : nullptr;
+    return found && index < found->map.fields().size() ? found->map.fields()[index].name.c_str() : "";
+}
+
 EspResult espPatternStats(EspContext* context, EspPatternStats* out) {
     return guarded(context, [&] {
         if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espPatternStats: null pointer");

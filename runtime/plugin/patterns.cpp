@@ -13,7 +13,7 @@
 namespace espalier {
 namespace {
 
-constexpr uint32_t kMostCollider = 256;  // triangles by which a mesh meets others, if it has a level of so few
+constexpr uint32_t kMostCollider = 100;  // triangles by which a mesh meets others, if it has a level of so few
 
 // The level of detail by which a mesh meets others: the finest that isn't too fine.
 const TerminalLod& colliderOf(const TerminalVariant& variant) {
@@ -25,7 +25,9 @@ const TerminalLod& colliderOf(const TerminalVariant& variant) {
 PieceMeshes collidersOf(const TerminalData& data) {
     PieceMeshes meshes;
     for (uint32_t kind = 0; kind < data.kinds.size(); ++kind) {
-        const auto variant = std::ranges::find(data.variants, kind, &TerminalVariant::kind);
+        // A mesh may bring another one by which it meets others: KIND_collider.
+        auto variant = std::ranges::find(data.variants, data.kinds[kind] + "_collider", &TerminalVariant::name);
+        if (variant == data.variants.end()) variant = std::ranges::find(data.variants, kind, &TerminalVariant::kind);
         std::vector<glm::vec3> positions;
         std::vector<uint32_t> indices;
         if (variant != data.variants.end() && !variant->lods.empty()) {
@@ -188,10 +190,12 @@ EspResult derive(EspContext& context, const PatternPlanting& planting) {
         inputs.surfaceCount = std::max(context.surfaceSlots(), 1u);
         inputs.layers = addressOf<LayerBuf>(context.layerTable);
         inputs.grammars = planting.maps;
-        inputs.fields.v = fields->data();
         inputs.seeds = planting.seeds;
         inputs.meshes = &patterns.meshes;
-        Result<GrownPattern> made = growPatternsOnCpu(inputs);
+        if (!patterns.growth)
+            if (Status ready = assign(patterns.growth, PatternGrowth::create(*context.device)); !ready)
+                return failGpu(&context, ready.failure());
+        Result<GrownPattern> made = patterns.growth->grow(inputs, *fields, !context.grow.shadersOnly);
         if (!made) return failWork(&context, made.failure());
         grown = std::move(*made);
     }

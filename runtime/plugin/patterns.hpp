@@ -13,7 +13,7 @@
 #include "runtime/emit/terminals.hpp"
 #include "runtime/field/field_texels.hpp"
 #include "runtime/gpu/buffer.hpp"
-#include "runtime/pattern/pattern_data.hpp"
+#include "runtime/pattern/pattern_growth.hpp"
 #include "runtime/plugin/contents.hpp"
 
 namespace espalier {
@@ -46,6 +46,7 @@ struct ContextPatterns {
     std::vector<TerminalMesh> names;
     std::optional<TerminalData> data;  // until the renderer has it
     PieceMeshes meshes;
+    std::unique_ptr<PatternGrowth> growth;  // made when the first pattern grows
     std::map<std::pair<uint32_t, std::string>, AskedField> asked;  // by surface's id and name
     std::map<uint32_t, FieldGround> ground;                        // by surface's id; made when a pattern first asks
     uint64_t askedNumber = 0;                                      // of all that has been asked for

@@ -96,25 +96,23 @@ FN bool piecesMeet(PatternEnv env, PatternPiece p, PatternPiece q) {
     return meet;
 }
 
-// Whether piece `other` counts against the set, and what follows if they meet. False: the set has fallen.
-FN bool meetOne(PatternEnv env, PatternPiece piece, vec4 sphere, uint other) {
-    PatternPiece q = env.pieces.v[other];
-    if (q.set == piece.set) return true;
-    bool before = q.set < env.status.v[0].firstSet;
-    uint state = loadShared(env.sets.v[q.set].state);
-    if (state == kSetFallen || (before && state != kSetStands)) return true;
-    if (!before && !comesBefore(env.sets.v[q.set], env.sets.v[piece.set])) return true;
-    vec4 s = sphereOf(env, q);
+// Whether piece `other`, which hasn't fallen, counts against the piece's set, and what follows if they meet; sphere, s:
+// around the piece and the other. False: the set has fallen.
+FN bool meetOne(PatternEnv env, PatternPiece piece, vec4 sphere, vec4 s, uint other) {
+    uint set = env.pieces.v[other].set;
+    if (set == piece.set) return true;
+    bool before = set < env.status.v[0].firstSet;
+    if (!before && !comesBefore(env.sets.v[set], env.sets.v[piece.set])) return true;
     vec3 off = vec3(s.x, s.y, s.z) - vec3(sphere.x, sphere.y, sphere.z);
     float reach = s.w + sphere.w;
-    if (dot3(off, off) > reach * reach || !piecesMeet(env, q, piece)) return true;
+    if (dot3(off, off) > reach * reach || !piecesMeet(env, env.pieces.v[other], piece)) return true;
     if (before) {
         settle(env, piece.set, kSetFallen);
         return false;
     }
     uint edge = atomicAdd(env.status.v[0].edges, 1u);
     if (edge < env.status.v[0].edgeRoom) {
-        env.edges.v[edge].set = q.set;
+        env.edges.v[edge].set = set;
         env.edges.v[edge].next = atomicExchange(env.sets.v[piece.set].met, edge);
     }
     return true;
@@ -142,10 +140,13 @@ FN void lookAround(PatternEnv env, uint i) {
             uint other = env.cells.v[cellAt3(env, c, x, y, z)];
             // Cells share lists where their hashes agree: a piece is looked at from its own cell only.
             while (other != kNoIndex && goesOn) {
-                vec4 s = sphereOf(env, env.pieces.v[other]);
-                bool here = classOf(s.w) == c && cellIndex(s.x, side) == x && cellIndex(s.y, side) == y &&
-                            cellIndex(s.z, side) == z;
-                if (here) goesOn = meetOne(env, piece, sphere, other);
+                // Of ten pieces that have been tried, nine may have fallen.
+                if (loadShared(env.sets.v[env.pieces.v[other].set].state) != kSetFallen) {
+                    vec4 s = sphereOf(env, env.pieces.v[other]);
+                    bool here = classOf(s.w) == c && cellIndex(s.x, side) == x && cellIndex(s.y, side) == y &&
+                                cellIndex(s.z, side) == z;
+                    if (here) goesOn = meetOne(env, piece, sphere, s, other);
+                }
                 other = env.pieces.v[other].next;
             }
         }
@@ -171,8 +172,7 @@ FN void decideSet(PatternEnv env, uint i) {
 
 FN bool waveDecided(PatternEnv env) { return env.status.v[0].decided == env.status.v[0].sets - env.status.v[0].firstSet; }
 FN bool foundRoom(PatternEnv env) {
-    return env.status.v[0].sets <= env.status.v[0].setRoom && env.status.v[0].pieces <= env.status.v[0].pieceRoom &&
-           env.status.v[0].edges <= env.status.v[0].edgeRoom && env.status.v[0].mostItems <= env.status.v[0].itemRoom;
+    return foundSetRoom(env) && env.status.v[0].edges <= env.status.v[0].edgeRoom && env.status.v[0].mostItems <= env.status.v[0].itemRoom;
 }
 
 // Shape i of the wave, once all sets have their fate: what its production makes that goes on.
@@ -230,7 +230,7 @@ FN void beginWave(PatternEnv env) {
         env.status.v[0].setGroups[0] = room ? env.status.v[0].setGroups[0] : 0u;
         return;
     }
-    uint groups = (count + kPatternGroup - 1u) / kPatternGroup;
+    uint groups = patternGroups(count);
     env.status.v[0].deriveGroups[0] = groups;
     env.status.v[0].shapeGroups[0] = groups;
     env.status.v[0].wave = count;

@@ -85,6 +85,10 @@ FN void runPart(MACHINE_PARAM PatternEnv env, uint grammar, u64 key, PatternPart
     runThere(MACHINE env, grammar, key, p.firstSite, p.siteCount, p.inputs, p.layers, p.code, t, depth);
 }
 
+FN bool foundSetRoom(PatternEnv env) {
+    return env.status.v[0].sets <= env.status.v[0].setRoom && env.status.v[0].pieces <= env.status.v[0].pieceRoom;
+}
+
 // Room for the sets of shape i's rule, which are known by their numbers from now on. False: there is none.
 FN bool makeSets(PatternEnv env, uint i, INOUT(PatternShape) shape) {
     RuleRecord rule = env.grammars.v[shape.grammar].rules.v[shape.rule];
@@ -94,9 +98,8 @@ FN bool makeSets(PatternEnv env, uint i, INOUT(PatternShape) shape) {
     uint firstSet = atomicAdd(env.status.v[0].sets, setCount);
     uint firstPiece = atomicAdd(env.status.v[0].pieces, pieceCount);
     if (firstSet + setCount > env.status.v[0].setRoom || firstPiece + pieceCount > env.status.v[0].pieceRoom) return false;
-    atomicMax(env.status.v[0].setGroups[0], (firstSet + setCount - env.status.v[0].firstSet + kPatternGroup - 1u) / kPatternGroup);
-    atomicMax(env.status.v[0].pieceGroups[0],
-              (firstPiece + pieceCount - env.status.v[0].firstPiece + kPatternGroup - 1u) / kPatternGroup);
+    atomicMax(env.status.v[0].setGroups[0], patternGroups(firstSet + setCount - env.status.v[0].firstSet));
+    atomicMax(env.status.v[0].pieceGroups[0], patternGroups(firstPiece + pieceCount - env.status.v[0].firstPiece));
     shape.firstSet = firstSet;
     uint piece = firstPiece;
     for (uint k = 0u; k < rule.successorCount; ++k) {

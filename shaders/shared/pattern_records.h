@@ -16,6 +16,7 @@
 ESPALIER_BEGIN
 
 CONST_UINT(kPatternGroup, 64u);       // invocations of a group in every kernel of patterns
+CONST_UINT(kPatternGroups, 1024u);    // at most: beyond, invocations take several items, so that lanes' memory is bounded
 CONST_UINT(kPatternPriorities, 8u);
 CONST_UINT(kPatternRounds, 6u);       // that are recorded for a wave; a wave that needs more takes another turn
 CONST_UINT(kPieceClasses, 32u);       // pieces are looked up by size: class c holds radii up to kPieceLeast * 2^c
@@ -141,6 +142,10 @@ struct PatternEnv {
 STATIC_SIZE(PatternEnv, 120);
 BUFFER(PatternEnvBuf, PatternEnv)
 
+FN uint patternGroups(uint items) {
+    uint groups = (items + kPatternGroup - 1u) / kPatternGroup;
+    return groups < kPatternGroups ? groups : kPatternGroups;
+}
 FN bool comesBefore(PatternSet a, PatternSet b) { return a.key < b.key || (a.key == b.key && a.number < b.number); }
 
 ESPALIER_END

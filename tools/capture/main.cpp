@@ -166,7 +166,17 @@ std::string roofsJson(const EspRoofStats& roofs) {
     return roofs.houses > 0 ? text : "";
 }
 
-std::string statsJson(const EspStats& stats, const EspRoofStats& roofs) {
+// Where there are patterns.
+std::string patternsJson(const EspPatternStats& patterns) {
+    char text[256];
+    std::snprintf(text, sizeof text,
+                  ",\"patterns\":{\"seeds\":%u,\"pieces\":%u,\"tried\":%u,\"fallen\":%u,\"waves\":%u,"
+                  "\"hash\":\"%016" PRIx64 "\"}",
+                  patterns.seeds, patterns.pieces, patterns.tried, patterns.fallen, patterns.waves, patterns.hash);
+    return patterns.seeds > 0 ? text : "";
+}
+
+std::string statsJson(const EspStats& stats, const EspRoofStats& roofs, const EspPatternStats& patterns) {
     char text[2048];
     std::snprintf(
         text, sizeof text,
@@ -180,7 +190,7 @@ std::string statsJson(const EspStats& stats, const EspRoofStats& roofs) {
         stats.drawMs, stats.nodeBytes, stats.leafBytes, stats.chunkBytes, stats.surfaceBytes, stats.layerBytes,
         stats.totalBytes, stats.overflow, stats.cut, stats.stopped, stats.enlarged, stats.validationMessages,
         stats.hash);
-    return text + roofsJson(roofs) + "}\n";
+    return text + roofsJson(roofs) + patternsJson(patterns) + "}\n";
 }
 
 // Where frames go and how they look.
@@ -347,15 +357,20 @@ int run(Options options) {
     else if (stats.stopped > 0)
         warn("a limit of depth or recursion ended " + std::to_string(stats.stopped) + " branches");
     if (roofs.stopped > 0) warn("a limit ended " + std::to_string(roofs.stopped) + " shapes of roofs");
-    if (const size_t planted = document.scene().seeds.size(); stats.seeds < planted)
-        warn(std::to_string(planted - stats.seeds) + " of " + std::to_string(planted) +
+    EspPatternStats patterns;
+    if (espPatternStats(made, &patterns) != ESP_OK) return fail(espLastError(made));
+    if (const size_t planted = document.scene().seeds.size(), grown = stats.seeds + patterns.seeds; grown < planted)
+        warn(std::to_string(planted - grown) + " of " + std::to_string(planted) +
              " seeds don't grow: they stand on bare ground, or another surface lies upon theirs");
     film.warnOfOld(replays ? recorded.frames() : options.frames);
-    if (!options.stats.empty() && !writeText(options.stats, statsJson(stats, roofs), error)) return fail(error);
+    if (!options.stats.empty() && !writeText(options.stats, statsJson(stats, roofs, patterns), error)) return fail(error);
     std::printf("%u frames in %s: %u seeds, %" PRIu64 " nodes, %u branches, %" PRIu64 " leaves, %" PRIu64
                 " polygons (%s)\n",
                 taken, options.folder.c_str(), stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons,
                 espDeviceName(made));
+    if (patterns.seeds > 0)
+        std::printf("patterns: %u pieces stand of %u tried, %u sets fell, in %u waves and %u rounds; %.1f ms\n",
+                    patterns.pieces, patterns.tried, patterns.fallen, patterns.waves, patterns.rounds, patterns.ms);
     if (roofs.houses > 0)
         std::printf("%u houses: %" PRIu64 " tiles (%" PRIu64
                     " clipped) in %u records, %.2f bytes a tile; "

@@ -213,6 +213,11 @@ PieceMeshes makePieceMeshes() {
         add("leaf", lod, leaf(2, lod == 2 ? 2 : 6 >> lod).mesh, 0);
         add("blossom", lod, blossom(5, 2, lod == 0 ? 4 : 2), 0);
     }
+    // By which pieces meet others that lie over or run into them by design.
+    add("scale_collider", 0, raised(polygon(6, .24f), .2f, .01f, 0).mesh, 0);
+    add("link_collider", 0, raised(polygon(6, .3f), .2f, .01f, 0).mesh, 0);
+    const std::vector<vec2> shortBar{{0, .2f}, {.3f, .2f}, {.3f, .8f}, {0, .8f}};
+    add("rod_collider", 0, turnedBody(6, shortBar, alongX).mesh, 0);
     // As Li 2011 calls two balls of its cracks.
     for (const char* kind : {"ico1", "ico2"})
         for (int lod = 0; lod < 2; ++lod) add(kind, lod, turnedBody(10 - 4 * lod, ballProfile(6 - 2 * lod)).mesh, 1);

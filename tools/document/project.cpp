@@ -49,7 +49,7 @@ SceneFile describe(const Document& document) {
     SceneFile out;
     out.project = SceneFile::kProjectVersion;
     for (const scene::LoadedSurface& surface : scene.surfaces)
-        out.surfaces.push_back({surface.file, surface.placing, surface.drawn});
+        out.surfaces.push_back({surface.file, surface.placing, surface.drawn, surface.fields});
     // Their order tells seeds of one number apart, whichever grammars they are of.
     const bool mixed = !std::ranges::is_sorted(scene.seeds, {}, &scene::Seed::grammar);
     for (size_t i = 0; i < scene.grammars.size(); ++i) {

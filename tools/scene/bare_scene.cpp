@@ -57,6 +57,26 @@ void plantAround(const EspContext* context, const EspSurfaceInfo& info, uint32_t
     }
 }
 
+// A pattern spreads by itself: one seed where the eye that sees all of the model meets it.
+void plantInSight(const EspContext* context, uint32_t number, Scene& scene) {
+    const EspCamera& camera = scene.camera;
+    const float towards[3] = {camera.target[0] - camera.eye[0], camera.target[1] - camera.eye[1],
+                              camera.target[2] - camera.eye[2]};
+    EspHit hit;
+    if (espPick(context, camera.eye, towards, &hit) != ESP_OK && espNearest(context, camera.target, &hit) != ESP_OK)
+        return;
+    Seed seed;
+    std::memcpy(seed.position.data(), hit.position, sizeof hit.position);
+    seed.direction = {0, -1, 0};
+    seed.number = number;
+    scene.seeds.push_back(seed);
+}
+
+bool makesPatterns(const EspContext* context, const LoadedGrammar& grammar) {
+    EspGrammarKind kind;
+    return espGrammarKind(context, grammar.id, &kind) == ESP_OK && kind == ESP_GRAMMAR_PATTERNS;
+}
+
 float largestSide(const EspSurfaceInfo& info) {
     float size = 0;
     for (int i = 0; i < 3; ++i) size = std::max(size, info.boundsMax[i] - info.boundsMin[i]);
@@ -68,7 +88,9 @@ constexpr float kAbove = .001f;  // of its size, that a model stands above the g
 // Lengths of the default ivy suit a wall of some metres. What is smaller is a model of something large: its leaves are
 // smaller, never larger than life; and stems are to get half-way up whatever it is.
 void fitToModel(EspContext* context, const EspSurfaceInfo& info, const LoadedGrammar& grammar) {
-    const float scale = std::min(1.f, largestSide(info) / 12);
+    // A pattern's lengths suit a model of two metres.
+    const float side = largestSide(info);
+    const float scale = makesPatterns(context, grammar) ? side / 2 : std::min(1.f, side / 12);
     for (uint32_t i = 0; i < espParamCount(context, grammar.id); ++i) {
         EspParamInfo param;
         if (espParamInfo(context, grammar.id, i, &param) != ESP_OK) continue;
@@ -136,8 +158,11 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
     if (!compileFile(context, grammar, error)) return false;
     out.grammars.push_back(grammar);
     fitToModel(context, info, grammar);
-    plantAround(context, info, request.seed.value_or(1), out);
     out.camera = espFrameAll(context);
+    if (makesPatterns(context, grammar))
+        plantInSight(context, request.seed.value_or(1), out);
+    else
+        plantAround(context, info, request.seed.value_or(1), out);
     layGround(info.boundsMin[1] - kAbove * largestSide(info), out);
     return true;
 }

@@ -101,6 +101,8 @@ bool loadSurfaces(EspContext* context, const SceneFile& file, Parts& parts, Scen
         surface.kept = KeptFile::open(surface.file);
         const auto load = surface.drawn ? espLoadSurface : espLoadGround;
         if (!fromContext(context, load(context, surface.file.c_str(), &place, &surface.id), error)) return false;
+        surface.fields = described.fields;
+        if (!fromContext(context, setFields(context, surface.id, surface.fields), error)) return false;
     }
     return true;
 }

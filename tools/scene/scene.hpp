@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "plugin_api/espalier.h"
+#include "tools/scene/fields.hpp"
 #include "tools/scene/kept_file.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/town.hpp"
@@ -46,6 +47,7 @@ struct LoadedSurface {
     bool drawn = true;  // false: it is ground only, and something else draws it
     EspSurface id{};
     std::shared_ptr<const KeptFile> kept = {};  // as it was loaded; null: it couldn't be kept
+    std::vector<SceneField> fields = {};
 };
 
 // A town of the scene.

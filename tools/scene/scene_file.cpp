@@ -95,13 +95,39 @@ class Reader : JsonChecks {
         if (many->kind != Json::Kind::list || many->items.empty())
             fail(*many, "'surfaces' must be a list of at least one");
         for (const Json& surface : many->items) {
-            if (!isObject(surface, "a surface", {"file", "position", "turn", "scale", "drawn"})) continue;
+            if (!isObject(surface, "a surface", {"file", "position", "turn", "scale", "drawn", "fields"})) continue;
             SceneSurface& placed = out_.surfaces.emplace_back();
             if (const Json* name = need(surface, "file")) placed.file = file(*name);
             readPlace(surface, placed.placing);
             number(surface, "scale", 1e-6f, 1e6f, placed.placing.scale);
             flag(surface, "drawn", placed.drawn);
+            if (const Json* fields = surface.find("fields")) readFields(*fields, placed.fields);
         }
+    }
+    void readFields(const Json& json, std::vector<SceneField>& fields) {
+        if (json.kind != Json::Kind::object) return (void)fail(json, "'fields' must be an object");
+        for (const auto& [name, said] : json.members) {
+            if (!isObject(said, "a field", {"drift", "lean", "elements"})) continue;
+            SceneField& field = fields.emplace_back();
+            field.name = name;
+            std::optional<std::array<float, 3>> drift;
+            vector(said, "drift", drift);
+            field.drift = drift.value_or(field.drift);
+            number(said, "lean", 0, 1e6f, field.lean);
+            if (const Json* elements = list(said, "elements"))
+                for (const Json& element : elements->items) readElement(element, field.elements.emplace_back());
+        }
+    }
+    void readElement(const Json& json, SceneElement& element) {
+        if (!isObject(json, "an element", {"kind", "position", "direction", "radius"})) return;
+        EspElementKind known;
+        if (json.find("kind")) word(json, "kind", element.kind);
+        if (!elementNamed(element.kind, known)) fail(json, "there is no element of the kind '" + element.kind + "'");
+        if (const Json* at = need(json, "position"); at && !numbers(*at, element.position))
+            fail(*at, "'position' must be three numbers");
+        if (const Json* to = json.find("direction"); to && !numbers(*to, element.direction))
+            fail(*to, "'direction' must be three numbers");
+        number(json, "radius", 0, 1e9f, element.radius);
     }
     void readPlace(const Json& json, Placing& placing) {
         if (const Json* at = json.find("position"); at && !numbers(*at, placing.position))

@@ -23,6 +23,7 @@ struct SceneSurface {
     std::string file;
     Placing placing;
     bool drawn = true;
+    std::vector<SceneField> fields = {};
 };
 
 struct SceneGrammar {

@@ -56,6 +56,17 @@ ordered_json townJson(const SceneTown& town, const std::string& file) {
     return json;
 }
 
+ordered_json fieldJson(const SceneField& field) {
+    ordered_json json{{"drift", shortestList(field.drift)}, {"lean", shortest(field.lean)}};
+    for (const SceneElement& e : field.elements) {
+        ordered_json& out = json["elements"].emplace_back(ordered_json{{"kind", e.kind},
+                                                                       {"position", shortestList(e.position)},
+                                                                       {"direction", shortestList(e.direction)}});
+        if (e.radius > 0) out["radius"] = shortest(e.radius);
+    }
+    return json;
+}
+
 ordered_json valueJson(const ParamValue& value) {
     return value.count == 3 ? shortestList(value.value) : shortest(value.value[0]);
 }
@@ -95,6 +106,8 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     for (const SceneSurface& surface : file.surfaces) {
         json["surfaces"].push_back(placedJson(beside(surface.file), surface.placing));
         if (!surface.drawn) json["surfaces"].back()["drawn"] = false;
+        for (const SceneField& field : surface.fields)
+            json["surfaces"].back()["fields"][field.name] = fieldJson(field);
     }
     if (file.town) json["town"] = townJson(*file.town, beside(file.town->file));
     if (!file.site.empty()) json["site"] = beside(file.site);

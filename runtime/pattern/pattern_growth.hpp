@@ -1,0 +1,42 @@
+#pragma once
+
+// Patterns derived on a device: waves recorded ahead as indirect dispatches, until nothing waits.
+
+#include <memory>
+
+#include "runtime/gpu/buffer.hpp"
+#include "runtime/gpu/commands.hpp"
+#include "runtime/gpu/program.hpp"
+#include "runtime/pattern/pattern_room.hpp"
+
+namespace espalier {
+
+class PatternGrowth {
+  public:
+    static Result<std::unique_ptr<PatternGrowth>> create(Device& device);
+
+    // Addresses in `inputs` are the device's, but for grammars and fieldTable, which are uploaded. native: on a software
+    // device whose addresses are the process's, the same text as native code. Waits for the result.
+    Result<GrownPattern> grow(const PatternInputs& inputs, std::span<const FieldRef> fieldTable, bool native);
+    // Dispatches of the last derivation by kernels that waited for each other.
+    uint32_t dispatches() const { return dispatches_; }
+
+  private:
+    explicit PatternGrowth(Device& device) : device_(device) {}
+    Status makeKernels();
+    Status makeRoom(const PatternInputs& inputs, std::span<const FieldRef> fieldTable);
+    Status upload(Commands& commands, const PatternInputs& inputs, std::span<const FieldRef> fieldTable);
+    void recordWaves(Commands& commands, uint32_t waves);
+    // All waves with the room there is. The status tells whether that was enough.
+    Result<PatternStatus> attempt(const PatternInputs& inputs, std::span<const FieldRef> fieldTable);
+    Result<GrownPattern> readBack();
+
+    Device& device_;
+    Program begin_, derive_, place_, look_, decide_, goOn_, hash_;
+    PatternRoom room_;
+    Buffer items_, shapes_, sets_, pieces_, edges_, cells_, meshes_, clusters_, corners_, status_, env_, grammars_,
+        fields_, lanes_, readback_;
+    uint32_t dispatches_ = 0;
+};
+
+}  // namespace espalier

@@ -1,0 +1,103 @@
+// The lattice of Li 2011, Fig. 4, in the plane, derived one shape after the other in double precision: an interpreter of
+// one grammar that shares no text with the kernels.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "tests/pattern/scene.hpp"
+
+using namespace espalier;
+using patterntest::Scene;
+
+namespace {
+
+using Vec = glm::dvec2;  // along +x and -z: counterclockwise as seen from above
+
+uint64_t stir(uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
+    return x ^ (x >> 31);
+}
+uint32_t named(const char* name) {
+    uint32_t hash = 2166136261u;
+    for (; *name; ++name) hash = (hash ^ uint8_t(*name)) * 16777619u;
+    return hash;
+}
+uint64_t child(uint64_t key, const char* name, uint32_t ordinal) {
+    return stir(key + stir(uint64_t(named(name)) << 32 | (ordinal + 1)));
+}
+
+constexpr double kLarge = .4, kSmall = .1;
+
+struct Frame {
+    Vec at;
+    double turn;
+    Frame moved(double by) const { return {at + by * Vec(std::cos(turn), std::sin(turn)), turn}; }
+    Frame turned(double degrees) const { return {at, turn + degrees * std::numbers::pi / 180}; }
+};
+struct Waiting {
+    uint64_t key;
+    Frame frame;
+};
+
+// How far two rings in one plane are from meeting, metres; negative: they do. Equal rings in one plane meet until they
+// lie beside each other.
+double gapOf(Vec a, Vec b) {
+    return glm::length(a - b) - 2 * kLarge - 2 * kSmall;
+}
+
+}  // namespace
+
+TEST_CASE("the kernels place what a sequential derivation places") {
+    constexpr double kHalf = 7;
+    Scene scene(patterntest::square(2 * kHalf), 256);
+    scene.addGrammar(R"(
+angles degrees
+Axiom -> P
+P -> [Rz(30) T(1.5,0,0) A] [Rz(150) T(1.5,0,0) A] [Rz(-90) T(1.5,0,0) A]
+A -> B [T(0.75,0,0) Rz(60) T(0.75,0,0) A] [T(0.75,0,0) Rz(-60) T(0.75,0,0) A]
+B -> IC("ring"))");
+    const vec3 begin = scene.placeNear({.2f, 0, -.1f});
+    scene.plant(begin, {1, 0, 0}, 0, 5);
+    const GrownPattern grown = scene.grow(2);
+
+    const Frame seed{{double(begin.x), -double(begin.z)}, 0};
+    const uint64_t axiom = stir(5), p = child(axiom, "P", 0);
+    std::vector<Waiting> wave;
+    const double turns[] = {30, 150, -90};
+    for (uint32_t i = 0; i < 3; ++i) wave.push_back({child(p, "A", i), seed.turned(turns[i]).moved(1.5)});
+    std::vector<Vec> placed;
+    bool doubtful = false;
+    const auto inside = [&](Vec v) { return std::abs(v.x) < kHalf && std::abs(v.y) < kHalf; };
+    while (!wave.empty()) {
+        std::ranges::sort(wave, {}, &Waiting::key);
+        std::vector<Waiting> next;
+        for (const Waiting& w : wave) {
+            if (!inside(w.frame.at)) continue;
+            const double edge = kHalf - std::max(std::abs(w.frame.at.x), std::abs(w.frame.at.y));
+            doubtful = doubtful || edge < 1e-3;
+            double gap = 1;
+            for (const Vec& other : placed) gap = std::min(gap, gapOf(w.frame.at, other));
+            doubtful = doubtful || std::abs(gap) < 1e-3;
+            if (gap < 0) continue;
+            placed.push_back(w.frame.at);
+            const Frame half = w.frame.moved(.75);
+            next.push_back({child(w.key, "A", 0), half.turned(60).moved(.75)});
+            next.push_back({child(w.key, "A", 1), half.turned(-60).moved(.75)});
+        }
+        wave = std::move(next);
+    }
+    REQUIRE_FALSE(doubtful);
+    CHECK(placed.size() > 40);
+    REQUIRE(grown.pieces.size() == placed.size());
+    for (const PatternPiece& piece : grown.pieces) {
+        const Vec at(double(piece.position.x), -double(piece.position.z));
+        const auto near = [&](const Vec& v) { return glm::length(v - at) < 2e-3; };
+        CHECK(std::ranges::count_if(placed, near) == 1);
+    }
+}

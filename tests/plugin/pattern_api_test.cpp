@@ -1,0 +1,113 @@
+// Patterns and fields as a host asks for them.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "tests/plugin/life.hpp"
+
+using namespace espalier;
+
+namespace {
+
+constexpr const char* kRings =
+    "angles degrees\n"
+    "field flow : tensor \"Direction\"\n"
+    "param size = 0.1 [0.02 .. 0.3] \"m\" \"Size\"\n"
+    "Start -> A\n"
+    "A -> [S(size) IC(\"torus\")] [T(size, 0, 0) A] [Rz(120) T(size, 0, 0) A] [Rz(-120) T(size, 0, 0) A]\n";
+
+struct Pattern : Life {
+    explicit Pattern(bool shaders = false) {
+        EspContextDef def = espDefaultContextDef();
+        def.log = silent;
+        REQUIRE(espCreate(&def, &context) == ESP_OK);
+        EspGrowDef grow = espDefaultGrowDef();
+        grow.shadersOnly = shaders;
+        REQUIRE(espSetGrow(context, &grow) == ESP_OK);
+        REQUIRE(load());
+        const EspGrammarDef text{"rings", kRings, std::char_traits<char>::length(kRings)};
+        REQUIRE_MESSAGE(espCompileGrammar(context, &text, &grammar) == ESP_OK, espLastError(context));
+        REQUIRE(plant(1));
+        REQUIRE_MESSAGE(update(), espLastError(context));
+    }
+    EspPatternStats stats() {
+        EspPatternStats s{};
+        REQUIRE(espPatternStats(context, &s) == ESP_OK);
+        return s;
+    }
+    void setElement(EspElementKind kind, float turn) {
+        const EspFieldElement element{kind, {0, 0, 0}, {std::cos(turn), std::sin(turn), .3f}, .3f};
+        EspFieldDef def = espDefaultFieldDef();
+        def.elements = &element;
+        def.elementCount = 1;
+        REQUIRE(espSetField(context, surface, "flow", &def) == ESP_OK);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("a pattern by kernels is the same to the bit as by native code") {
+    Pattern native, shaders(true);
+    CHECK(native.stats().pieces > 20);
+    CHECK(native.stats().hash == shaders.stats().hash);
+    CHECK(native.stats().tried == shaders.stats().tried);
+}
+
+TEST_CASE("an element of a field turns the pattern, and what was undone is as before") {
+    Pattern pattern;
+    const uint64_t before = pattern.stats().hash;
+    pattern.setElement(ESP_ELEMENT_REGULAR, .9f);
+    REQUIRE(pattern.update());
+    const uint64_t turned = pattern.stats().hash;
+    CHECK(turned != before);
+    pattern.setElement(ESP_ELEMENT_WEDGE, .2f);
+    REQUIRE(pattern.update());
+    CHECK(pattern.stats().hash != turned);
+    REQUIRE(espSetField(pattern.context, pattern.surface, "flow", nullptr) == ESP_OK);
+    REQUIRE(pattern.update());
+    CHECK(pattern.stats().hash == before);
+}
+
+TEST_CASE("a pattern is derived only when something that it depends on changes, and goes with its seed") {
+    Pattern pattern;
+    const EspPatternStats before = pattern.stats();
+    REQUIRE(pattern.update());
+    CHECK(pattern.stats().ms == before.ms);
+    const float size = .14f;
+    REQUIRE(espSetParam(pattern.context, pattern.grammar, "size", &size, 1) == ESP_OK);
+    REQUIRE(pattern.update());
+    CHECK(pattern.stats().pieces < before.pieces);
+    REQUIRE(pattern.draw());
+    REQUIRE(espRemoveAllSeeds(pattern.context) == ESP_OK);
+    REQUIRE(pattern.update());
+    CHECK(pattern.stats().pieces == 0);
+    EspStats plants{};
+    REQUIRE(espReadStats(pattern.context, &plants) == ESP_OK);
+    CHECK(plants.nodes == 0);
+}
+
+TEST_CASE("what can't be a field or a pattern is refused, and what stands stays") {
+    Pattern pattern;
+    const uint64_t before = pattern.stats().hash;
+    EspFieldDef def = espDefaultFieldDef();
+    CHECK(espSetField(pattern.context, {12345}, "flow", &def) == ESP_INVALID_ARGUMENT);
+    CHECK(espSetField(pattern.context, pattern.surface, "", &def) == ESP_INVALID_ARGUMENT);
+    CHECK(espSetField(pattern.context, pattern.surface, nullptr, &def) == ESP_INVALID_ARGUMENT);
+    def.elementCount = 1;
+    CHECK(espSetField(pattern.context, pattern.surface, "flow", &def) == ESP_INVALID_ARGUMENT);
+    EspFieldElement element{ESP_ELEMENT_NODE, {0, 0, 0}, {1, 0, 0}, -1};
+    def.elements = &element;
+    CHECK(espSetField(pattern.context, pattern.surface, "flow", &def) == ESP_INVALID_ARGUMENT);
+    element.radius = 1;
+    element.position[1] = std::numeric_limits<float>::quiet_NaN();
+    CHECK(espSetField(pattern.context, pattern.surface, "flow", &def) == ESP_INVALID_ARGUMENT);
+    CHECK(espPatternStats(pattern.context, nullptr) == ESP_INVALID_ARGUMENT);
+    const std::string wrong = "A -> IC(\"thorus\")";
+    const EspGrammarDef text{"wrong", wrong.data(), wrong.size()};
+    CHECK(espRecompileGrammar(pattern.context, pattern.grammar, &text) == ESP_INVALID_CONTENT);
+    CHECK(std::string(espLastError(pattern.context)).find("did you mean 'torus'") != std::string::npos);
+    REQUIRE(pattern.update());
+    CHECK(pattern.stats().hash == before);
+}
