@@ -28,20 +28,44 @@ FN float largestSide(PatternPiece p) {
     return sqrtExact(larger(larger(dot3(p.x, p.x), dot3(p.y, p.y)), dot3(p.z, p.z))) * 1.00001f;
 }
 
-FN bool clustersMeet(PatternEnv env, PatternPiece p, PatternMesh m, uint i, PatternPiece q, PatternMesh n, uint j) {
-    uint endP = fewer(m.triangleCount, (i + 1u) * kClusterTriangles);
-    uint endQ = fewer(n.triangleCount, (j + 1u) * kClusterTriangles);
+// Whether three points lie on one side of the plane through `a` with normal n, or in it.
+FN bool liesAside(vec3 n, vec3 a, vec3 p, vec3 q, vec3 r) {
+    float x = dot3(n, p - a);
+    float y = dot3(n, q - a);
+    float z = dot3(n, r - a);
+    return (x >= 0.0f && y >= 0.0f && z >= 0.0f) || (x <= 0.0f && y <= 0.0f && z <= 0.0f);
+}
+
+// Of triangle a, b, c against run j of the mesh n of piece q, which lies within the sphere.
+FN bool triangleMeets(PatternEnv env, vec3 a, vec3 b, vec3 c, PatternPiece q, PatternMesh n, uint j, vec3 centre,
+                      float radius) {
+    vec3 normal = cross3(b - a, c - a);
+    float off = dot3(normal, centre - a);
+    if (off * off > radius * radius * dot3(normal, normal)) return false;
+    uint end = fewer(n.triangleCount, (j + 1u) * kClusterTriangles);
     bool meet = false;
-    for (uint s = i * kClusterTriangles; s < endP && !meet; ++s) {
+    for (uint t = j * kClusterTriangles; t < end && !meet; ++t) {
+        uint to = n.firstVertex + 3u * t;
+        vec3 d = placedPoint(q, env.corners.v[to]);
+        vec3 e = placedPoint(q, env.corners.v[to + 1u]);
+        vec3 f = placedPoint(q, env.corners.v[to + 2u]);
+        if (liesAside(normal, a, d, e, f) || liesAside(cross3(e - d, f - d), d, a, b, c)) continue;
+        meet = trianglesMeet(a, b, c, d, e, f);
+    }
+    return meet;
+}
+
+// Run i of a mesh against run j of another, which lies within the sphere.
+FN bool clustersMeet(PatternEnv env, PatternPiece p, PatternMesh m, uint i, PatternPiece q, PatternMesh n, uint j,
+                     vec3 centre, float radius) {
+    uint end = fewer(m.triangleCount, (i + 1u) * kClusterTriangles);
+    bool meet = false;
+    for (uint s = i * kClusterTriangles; s < end && !meet; ++s) {
         uint at = m.firstVertex + 3u * s;
         vec3 a = placedPoint(p, env.corners.v[at]);
         vec3 b = placedPoint(p, env.corners.v[at + 1u]);
         vec3 c = placedPoint(p, env.corners.v[at + 2u]);
-        for (uint t = j * kClusterTriangles; t < endQ && !meet; ++t) {
-            uint to = n.firstVertex + 3u * t;
-            meet = trianglesMeet(a, b, c, placedPoint(q, env.corners.v[to]), placedPoint(q, env.corners.v[to + 1u]),
-                                 placedPoint(q, env.corners.v[to + 2u]));
-        }
+        meet = triangleMeets(env, a, b, c, q, n, j, centre, radius);
     }
     return meet;
 }
@@ -87,9 +111,11 @@ FN bool piecesMeet(PatternEnv env, PatternPiece p, PatternPiece q) {
         if (dot3(off, off) > (r + sphere.w) * (r + sphere.w)) continue;
         for (uint j = 0u; j < n.clusterCount && !meet; ++j) {
             vec4 l = env.clusters.v[n.firstCluster + j];
-            vec3 apart = placedPoint(q, vec3(l.x, l.y, l.z)) - c;
-            float reach = r + l.w * scaleQ;
-            if (dot3(apart, apart) <= reach * reach) meet = clustersMeet(env, p, m, i, q, n, j);
+            vec3 centre = placedPoint(q, vec3(l.x, l.y, l.z));
+            float radius = l.w * scaleQ;
+            vec3 apart = centre - c;
+            float reach = r + radius;
+            if (dot3(apart, apart) <= reach * reach) meet = clustersMeet(env, p, m, i, q, n, j, centre, radius);
         }
     }
     if (!meet) meet = isWithin(env, q, n, placedPoint(p, m.within)) || isWithin(env, p, m, placedPoint(q, n.within));

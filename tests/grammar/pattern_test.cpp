@@ -1,6 +1,9 @@
 // Grammars of patterns: the texts of Li 2011, what they compile to, and what is refused.
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "runtime/grammar/grammar.hpp"
@@ -136,4 +139,31 @@ TEST_CASE("mistakes in patterns are told with their place") {
     CHECK(patternRefusal("A -> I(\"star\") A priority 9").find("from 0 to 7") != std::string::npos);
     CHECK(patternRefusal("V -> Marching(1, 0, true) {V, Rx(1) S(0.1) Shape(\"bark\")}").find("belongs to patterns") !=
           std::string::npos);
+}
+
+TEST_CASE("the shipped grammars of patterns, and the manual's, compile without warnings") {
+    CompileOptions o;
+    for (const char* piece : {"none", "ball", "blossom", "box", "cobble", "cylinder", "ellipse", "hexagon", "ico1", "ico2",
+                              "leaf", "link", "torus", "rod", "scale", "star", "stud", "tile", "triangle"})
+        o.pieces.push_back({piece, false});
+    int shipped = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("content/grammars")) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with("pattern_")) continue;
+        const Result<RuleMap> map = compileGrammarFile(entry.path(), o);
+        REQUIRE_MESSAGE(map, (map ? "" : map.failure().text()));
+        CHECK(toString(map.value().warnings()) == "");
+        CHECK(map.value().patterns());
+        CHECK(map.value().findParam("scale"));
+        for (const ParamInfo& p : map.value().params()) CHECK(p.label != p.name);
+        ++shipped;
+    }
+    CHECK(shipped >= 9);
+    std::ifstream file("docs/patterns.md");
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::string open = "```grammar\n";
+    const size_t begin = text.find(open) + open.size();
+    const Result<RuleMap> example = compileGrammar(text.substr(begin, text.find("\n```", begin) - begin), o);
+    REQUIRE_MESSAGE(example, (example ? "" : example.failure().text()));
+    CHECK(toString(example.value().warnings()) == "");
 }
