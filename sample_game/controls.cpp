@@ -27,6 +27,7 @@ void Controls::cancelTools() {
     brush_.cancel(work_);
     seeds_.cancel(work_);
     houses_.cancel(work_);
+    fields_.cancel(work_);
     noteTools();
 }
 
@@ -39,6 +40,8 @@ bool Controls::takeBackDrag() {
         seeds_.cancel(work_);
     else if (houses_.dragging())
         houses_.cancel(work_);
+    else if (fields_.dragging())
+        fields_.cancel(work_);
     else
         return false;
     return true;
@@ -48,6 +51,7 @@ void Controls::finishTools() {
     brush_.cancel(work_);  // keeps what is painted
     seeds_.finish(work_);
     houses_.finish(work_);
+    fields_.finish();
     finishDrag();
     noteTools();
 }
@@ -125,7 +129,7 @@ void Controls::takeKey(const KeyEvent& event) {
         return;
     }
     if (takeViewKey(event) || navigation_.dragging()) return;  // letters fly
-    if (!seeds_.dragging() && !houses_.dragging()) takeToolKey(event);
+    if (!seeds_.dragging() && !houses_.dragging() && !fields_.dragging()) takeToolKey(event);
 }
 
 // The views of Blender's number pad.
@@ -168,6 +172,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
     if (key == GLFW_KEY_S) chooseTool(Tool::seeds);
     if (key == GLFW_KEY_P) chooseTool(Tool::branch);
     if (key == GLFW_KEY_H) chooseTool(Tool::houses);
+    if (key == GLFW_KEY_E) chooseTool(Tool::fields);
     const bool paints = work_.tool == Tool::paint;
     if (paints && !brush_.painting() && !brush_.sizing()) {  // a stroke goes on as it began
         float& radius = work_.brushRadius();
@@ -188,6 +193,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
     if (work_.tool == Tool::branch && removes) work_.prune();
     if (work_.tool == Tool::branch && key == GLFW_KEY_LEFT_BRACKET) work_.pickParent();
     if (work_.tool == Tool::houses && removes) houses_.removeCorner(work_);
+    if (work_.tool == Tool::fields && removes) fields_.remove(work_);
     if (work_.tool == Tool::seeds) {
         if (removes) seeds_.remove(work_);
         if (key == GLFW_KEY_A && (event.mods & GLFW_MOD_ALT))
@@ -205,7 +211,8 @@ void Controls::takeToolKey(const KeyEvent& event) {
 }
 
 bool Controls::toolBusy() const {
-    return brush_.painting() || brush_.sizing() || seeds_.dragging() || houses_.dragging();
+    return brush_.painting() || brush_.sizing() || seeds_.dragging() || houses_.dragging() ||
+           fields_.dragging();
 }
 
 bool Controls::panelTakes(const PointerEvent& event) {
@@ -234,6 +241,7 @@ void Controls::takePointer(const PointerEvent& event) {
     if (work_.tool == Tool::paint) brush_.take(work_, event);
     if (work_.tool == Tool::seeds) seeds_.take(work_, event);
     if (work_.tool == Tool::houses) houses_.take(work_, event);
+    if (work_.tool == Tool::fields) fields_.take(work_, event);
     if (work_.tool == Tool::branch && pressed) work_.pickBranch({event.x, event.y});
     if (toolFirst) navigation_.follow({event.x, event.y});
 }
@@ -299,6 +307,7 @@ void Controls::showTool(int mods) {
     if (work_.tool == Tool::paint) brush_.draw(work_, mods);
     if (work_.tool == Tool::seeds) seeds_.draw(work_);
     if (work_.tool == Tool::houses) houses_.draw(work_);
+    if (work_.tool == Tool::fields) fields_.draw(work_);
     if (work_.tool == Tool::branch) showWalk(work_);
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sample_game/brush_tool.hpp"
+#include "sample_game/field_tool.hpp"
 #include "sample_game/house_tool.hpp"
 #include "sample_game/navigation.hpp"
 #include "sample_game/seed_tool.hpp"
@@ -53,6 +54,7 @@ class Controls {
     BrushTool brush_;
     SeedTool seeds_;
     HouseTool houses_;
+    FieldTool fields_;
     uint32_t panelButtons_ = 0;  // bits: those that were pressed over a panel and are down
 };
 

@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <span>
+#include <vector>
 #include <utility>
 
+#include "sample_game/field_tool.hpp"
 #include "sample_game/panels.hpp"
 
 namespace sample {
@@ -27,12 +28,18 @@ void toolButtons(Workspace& work) {
         {"Paint", "B", Tool::paint, "Paint a layer, such as where ivy grows"},
         {"Seeds", "S", Tool::seeds, "Plant, choose, move and turn seeds"},
         {"Branch", "P", Tool::branch, "Pick a branch: prune it, freeze its plant, see how it walked"},
-        {"Roofs", "H", Tool::houses, "Choose a house: its roof, its outline"}};
+        {"Roofs", "H", Tool::houses, "Choose a house: its roof, its outline"},
+        {"Fields", "E", Tool::fields, "Place and turn the elements of a field that guides patterns"}};
     const float pad = 2 * work.scale, gap = ImGui::GetStyle().ItemSpacing.x / 2;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {pad, ImGui::GetStyle().FramePadding.y});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {gap, ImGui::GetStyle().ItemSpacing.y});
-    // Only scenes with a town have roofs.
-    const std::span shown(entries, std::size(entries) - (espHouseCount(work.context.get()) ? 0 : 1));
+    // Only scenes with a town have roofs, only those with a grammar of patterns have fields.
+    std::vector<Entry> shown;
+    for (const Entry& entry : entries) {
+        const bool roofs = entry.tool != Tool::houses || espHouseCount(work.context.get()) > 0;
+        const bool fields = entry.tool != Tool::fields || !designedFields(work).empty();
+        if (roofs && fields) shown.push_back(entry);
+    }
     const auto textOf = [](const Entry& entry, bool keys) {
         return keys ? std::string(entry.label) + " " + entry.key : entry.label;
     };
@@ -152,6 +159,7 @@ void showPanel(Workspace& work) {
         if (work.tool == Tool::seeds) seedsPanel(work);
         if (work.tool == Tool::branch) branchPanel(work);
         if (work.tool == Tool::houses) housesPanel(work);
+        if (work.tool == Tool::fields) fieldsPanel(work);
         ImGui::Spacing();
         grammarsPanel(work);
         if (work.tool != Tool::paint && ImGui::CollapsingHeader("Layers")) layersPanel(work);

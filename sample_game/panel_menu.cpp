@@ -78,6 +78,11 @@ Hint hintOf(const Workspace& work, bool caught, bool flying) {
                 "Click a branch   [: its parent   Del: prune it   F: show it   white: steps   blue: put in at seams "
                 "and creases   green: over a seam";
             break;
+        case Tool::fields:
+            text =
+                "Click: place an element   drag: with a direction   drag an element: move   drag its arrow: turn   Del: "
+                "remove";
+            break;
         case Tool::look:
             text = "Drag: turn around   Shift+drag: sideways   wheel: nearer   right drag: look, with W A S D: fly";
             break;

@@ -53,6 +53,7 @@ void grammarsPanel(Workspace& work);
 void presetsPanel(Workspace& work, uint32_t grammar);  // a combo that takes the rest of the row
 void branchPanel(Workspace& work);
 void housesPanel(Workspace& work);
+void fieldsPanel(Workspace& work);
 void lightPanel(Workspace& work);
 
 // A slider, check box (with its label) or colour. True: the value has changed. several: it stands for values that

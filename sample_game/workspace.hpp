@@ -14,7 +14,7 @@
 
 namespace sample {
 
-enum class Tool { look, paint, seeds, branch, houses };
+enum class Tool { look, paint, seeds, branch, houses, fields };
 
 // What the brush paints with, but for what the keys say while it does.
 struct Brush {
@@ -82,6 +82,13 @@ struct Workspace {
     std::vector<EspPathSample> pointed;  // the walk of the branch under the mouse, while one may be picked
     std::optional<uint32_t> house;       // of the town, that was chosen
     std::optional<uint32_t> houseEdge;   // of its outer ring
+    // The field in hand, the kind and reach of the next element, and the one that is chosen.
+    struct {
+        std::string name, kind = "regular";
+        float radius = 0;
+        size_t surface = 0;
+        std::optional<size_t> element;
+    } field;
     uint32_t plantGrammar = 0;
     uint32_t viewLevel = 0;     // whose charts are seen on the model
     uint32_t openGrammar = 0;   // in the grammar's window

@@ -158,6 +158,16 @@ class Designer {
         for (int i = 0; i < 2; ++i) drag.push_back(SetLight{pick(3) ? chance(0, 24) : -1, chance(-1, 1), pick(2) == 0});
         return drag;
     }
+    Actions make(SetField) {
+        SetField set;
+        set.field.name = pick(2) ? "flow" : "lie";
+        set.field.lean = chance(0, 3);
+        for (size_t i = pick(4); i > 0; --i)
+            set.field.elements.push_back(
+                {pick(2) ? "regular" : "node", {chance(-2, 2), chance(0, 2), 0}, {chance(-1, 1), 1, 0}, chance(0, 1)});
+        set.said = pick(4) > 0;
+        return {set};
+    }
     Actions make(SetWalk) { return {SetWalk{pick(2) ? "paper" : "intrinsic"}}; }
     Actions make(StrokeBegin) {
         const bool town = pick(2);

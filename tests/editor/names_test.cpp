@@ -58,6 +58,8 @@ TEST_CASE("each step of undo is called by what it changed, and of what") {
     CHECK(changeSeed([](SeedRecord& s) { s.params = {{"reach", {1}}}; }) == "Values of a seed");
     CHECK(changeSeed([](SeedRecord& s) { s.grammar = 1; }) == "Grammar of a seed");
 
+    CHECK(named(SetField{0, {"flow", {0, -1, 0}, 1, {{"node", {0, 1, 0}}}}}) == "New element of flow");
+    CHECK(named(SetField{0, {"flow", {0, -1, 0}, 1, {}}}) == "Remove elements of flow");
     CHECK(named(SetLight{14, 0, true}) == "Time of the day");
     CHECK(named(SetLight{14, 1, true}) == "Exposure");
     CHECK(named(SetLight{14, 1, false}) == "Shadows");

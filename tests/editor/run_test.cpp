@@ -25,6 +25,7 @@ TEST_CASE("every action comes back from its line") {
         SetHouse{{0, "hip", 1, 3, {}, {{0, 0}, {9, 0}, {9, 9}, {3, 3}, {3, 4}, {4, 3}}, {3, 3}}},
         ResetHouse{3},
         LoadTownLayer{"moss", "moss.png"},
+        SetField{1, {"flow", {0, -1, .5f}, .25f, {{"wedge", {1, 2, 3}, {0, 0, 1}, .5f}}}, true},
         SetCamera{{1, 2, 3}, {4, 5, 6}, .7f},
         SetView{"layer", "mask"},
         Undo{},

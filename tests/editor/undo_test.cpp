@@ -88,6 +88,9 @@ State stateOf(Editing& editing) {
     state["sun"] = line(SetCamera{{look.sunDirection[0], look.sunDirection[1], look.sunDirection[2]},
                                   {look.sunColour[0], look.sunColour[1], look.sunColour[2]},
                                   look.skyColour[2]});
+    for (size_t i = 0; i < scene.surfaces.size(); ++i)
+        for (const auto& field : scene.surfaces[i].fields)
+            state["fields of " + std::to_string(i)] += line(SetField{uint32_t(i), field, true});
     state["walk"] = espalier::scene::nameOf(scene.grow.walk);
     return state;
 }

@@ -132,6 +132,18 @@ struct SetLight {
     }
 };
 
+// What one field of one surface is made from.
+struct SetField {
+    static constexpr const char* kName = "field";
+    uint32_t surface = 0;
+    scene::SceneField field;
+    bool said = true;  // false: as a field is of which nothing is said
+    template <class V>
+    void fields(V&& v) {
+        v("surface", surface), v("said", said), v("field", field);
+    }
+};
+
 // How all plants walk.
 struct SetWalk {
     static constexpr const char* kName = "walk";
@@ -261,7 +273,7 @@ struct RestoreFrozen {
 };
 using Action = std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, SetWalk, StrokeBegin,
                             StrokeDabs, StrokeEnd, FillLayer, LoadLayer, FreezeSeeds, PruneBranch, SetHouse, ResetHouse,
-                            LoadTownLayer, SetCamera, SetView, Undo, Redo, SwapStroke, RestoreFrozen>;
+                            LoadTownLayer, SetField, SetCamera, SetView, Undo, Redo, SwapStroke, RestoreFrozen>;
 
 // The layer that an action begins to change; empty: none.
 std::string layerOf(const Action& action);

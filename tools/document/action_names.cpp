@@ -105,6 +105,15 @@ struct Names {
         const scene::House before = scene::houseNow(document.context(), a.house.index);
         return changeOf(before, a.house) + (" of " + houseName(document.context(), a.house.index));
     }
+    Name operator()(const SetField& a) const {
+        const auto& surfaces = document.scene().surfaces;
+        size_t before = 0;
+        if (a.surface < surfaces.size())
+            for (const scene::SceneField& field : surfaces[a.surface].fields)
+                if (field.name == a.field.name) before = field.elements.size();
+        const size_t now = a.field.elements.size();
+        return (now > before ? "New element of " : now < before ? "Remove elements of " : "Change ") + a.field.name;
+    }
     Name operator()(const ResetHouse& a) const { return "As planned: " + houseName(document.context(), a.house); }
     // Those that begin no step.
     template <class Other>

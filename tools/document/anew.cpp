@@ -32,6 +32,7 @@ struct RenameSeeds {
     void operator()(PruneBranch&) const {}
     void operator()(SetHouse&) const {}
     void operator()(ResetHouse&) const {}
+    void operator()(SetField&) const {}
     void operator()(SetCamera&) const {}
     void operator()(SetView&) const {}
     void operator()(Undo&) const {}

@@ -55,6 +55,10 @@ bool overwrites(const Action& earlier, const Action& later) {
         return std::equal(a->seeds.begin(), a->seeds.end(), b.seeds.begin(), b.seeds.end(),
                           [](const SeedRecord& x, const SeedRecord& y) { return x.key == y.key; });
     }
+    if (const auto* a = std::get_if<SetField>(&earlier)) {
+        const auto& b = std::get<SetField>(later);
+        return a->surface == b.surface && a->field.name == b.field.name;
+    }
     return std::holds_alternative<SetLight>(earlier);
 }
 

@@ -106,6 +106,7 @@ class Document {
     bool carryOut(const PruneBranch& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetHouse& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const ResetHouse& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetField& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetCamera& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetView& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const Undo&, std::vector<Action>&, std::string& error) { return move(done_, undone_, error); }

@@ -14,6 +14,10 @@ struct SceneElement {
     std::string kind = "regular";  // wedge, trisector, node, centre, saddle
     std::array<float, 3> position{}, direction{1, 0, 0};
     float radius = 0;  // metres; 0: a tenth of the surface's radius
+    template <class V>
+    void fields(V&& v) {
+        v("kind", kind), v("position", position), v("direction", direction), v("radius", radius);
+    }
     bool operator==(const SceneElement&) const = default;
 };
 // The field of this name on one surface.
@@ -22,6 +26,10 @@ struct SceneField {
     std::array<float, 3> drift{0, -1, 0};
     float lean = 1;
     std::vector<SceneElement> elements;
+    template <class V>
+    void fields(V&& v) {
+        v("name", name), v("drift", drift), v("lean", lean), v("elements", elements);
+    }
     bool operator==(const SceneField&) const = default;
 };
 

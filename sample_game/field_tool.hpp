@@ -1,0 +1,41 @@
+#pragma once
+
+#include "sample_game/input.hpp"
+#include "sample_game/workspace.hpp"
+
+namespace sample {
+
+// Elements of the field in hand: a click places one, a drag gives its direction. A click on one chooses it, a drag of it
+// moves it, a drag of its arrow turns it.
+class FieldTool {
+  public:
+    bool take(Workspace& work, const PointerEvent& event);
+    void cancel(Workspace& work);  // what is under way, as if it hadn't been
+    void finish() { drag_ = Drag::none; }
+    void remove(Workspace& work);  // the chosen element
+    bool dragging() const { return drag_ != Drag::none; }
+    void draw(const Workspace& work) const;
+
+  private:
+    enum class Drag { none, direction, move };
+    void press(Workspace& work, glm::vec2 at);
+    void follow(Workspace& work, glm::vec2 at);
+    void place(Workspace& work, const EspHit& hit);
+
+    Drag drag_ = Drag::none;
+    glm::vec2 from_{0};
+    bool moved_ = false, changed_ = false;
+    uint32_t gesture_ = 0;
+};
+
+// The fields that the scene's grammars read and that elements may form.
+std::vector<std::string> designedFields(const Workspace& work);
+// What the document says of the field in hand on a surface, or what holds where it says nothing.
+espalier::scene::SceneField fieldNow(const Workspace& work, size_t surface);
+// The element that is chosen; null: none.
+const espalier::scene::SceneElement* chosenElement(const Workspace& work);
+// Gives the chosen element's surface the field with that element as `change` leaves it.
+void changeElement(Workspace& work, uint32_t gesture,
+                   const std::function<void(espalier::scene::SceneElement&)>& change);
+
+}  // namespace sample
