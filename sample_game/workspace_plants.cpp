@@ -107,6 +107,10 @@ std::optional<EspPlantInfo> Workspace::barren(uint32_t key) {
     if (asked_.key == key && asked_.expansions == stats.expansions) return asked_.barren;
     EspPlantInfo plant{};
     asked_ = {key, stats.expansions, {}};
+    EspGrammarKind kind;  // a pattern has no plant
+    if (espGrammarKind(context.get(), scene().grammars[seed->grammar].id, &kind) == ESP_OK &&
+        kind == ESP_GRAMMAR_PATTERNS)
+        return {};
     const bool known = espPlantInfo(context.get(), seed->planted, &plant) == ESP_OK;
     if (known && plant.nodes < 2) asked_.barren = plant;  // the first stands where the seed does
     return asked_.barren;

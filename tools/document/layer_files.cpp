@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "tools/scene/layers.hpp"
+#include "tools/scene/text_file.hpp"
 #include "tools/scene/unfinished.hpp"
 
 namespace espalier::document {
