@@ -24,7 +24,8 @@ class CpuPatterns {
             room_.grow(status_);
         }
         sumHash();
-        GrownPattern grown = standingOf(std::span(pieces_).first(status_.pieces), std::span(sets_).first(status_.sets), status_);
+        GrownPattern grown =
+            standingOf(std::span(pieces_).first(status_.pieces), std::span(sets_).first(status_.sets), status_);
         grown.stats.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
         return grown;
     }
@@ -36,6 +37,7 @@ class CpuPatterns {
         sets_.resize(room_.sets);
         pieces_.resize(room_.pieces);
         edges_.resize(room_.edges);
+        pairs_.resize(room_.pairs);
         cells_.assign(room_.cells(), kNoIndex);
         std::ranges::copy(itemsOfPatternSeeds(inputs_), items_.begin());
         status_ = freshPatternStatus(inputs_, room_);
@@ -49,6 +51,7 @@ class CpuPatterns {
         env_.sets.v = sets_.data();
         env_.pieces.v = pieces_.data();
         env_.edges.v = edges_.data();
+        env_.pairs.v = pairs_.data();
         env_.cells.v = cells_.data();
         env_.meshes.v = const_cast<PatternMesh*>(meshes.meshes.data());
         env_.clusters.v = const_cast<vec4*>(meshes.clusters.data());
@@ -72,6 +75,8 @@ class CpuPatterns {
             if (!foundRoom(env_) || status_.pieces > inputs_.limits.maxPieces) return;
             each(status_.pieces - status_.firstPiece, placePiece);
             each(status_.pieces - status_.firstPiece, lookAround);
+            if (!foundRoom(env_)) return;
+            each(status_.pairs, meetPair);
             if (!foundRoom(env_)) return;
             while (!waveDecided(env_)) {
                 each(status_.sets - status_.firstSet, decideSet);
@@ -100,6 +105,7 @@ class CpuPatterns {
     std::vector<PatternSet> sets_;
     std::vector<PatternPiece> pieces_;
     std::vector<PatternEdge> edges_;
+    std::vector<PatternPair> pairs_;
     std::vector<uint32_t> cells_;
 };
 

@@ -30,10 +30,10 @@ struct PatternLimits {
 struct PatternInputs {
     SurfaceBuf surfaces{};
     uint32_t surfaceCount = 0;
-    LayerBuf layers{};                           // surfaceCount * kMaxLayers
-    std::span<const RuleMapRef> grammars;        // of patterns; at least one
-    FieldBuf fields{};                           // as PatternEnv::fields
-    std::span<const Seed> seeds;                 // grammar: index into `grammars`
+    LayerBuf layers{};                     // surfaceCount * kMaxLayers
+    std::span<const RuleMapRef> grammars;  // of patterns; at least one
+    FieldBuf fields{};                     // as PatternEnv::fields
+    std::span<const Seed> seeds;           // grammar: index into `grammars`
     const PieceMeshes* meshes = nullptr;
     PatternLimits limits;
 };
@@ -41,9 +41,9 @@ struct PatternInputs {
 struct PatternStats {
     uint64_t hash = 0;  // of what stands, whatever the order it was found in
     uint32_t shapes = 0, tried = 0, standing = 0, fallen = 0;
-    uint32_t ended = 0, deep = 0;    // symbols at the surface's end; beyond maxDepth
+    uint32_t ended = 0, deep = 0;  // symbols at the surface's end; beyond maxDepth
     uint32_t waves = 0, rounds = 0;
-    uint32_t pieces = 0;             // that stand
+    uint32_t pieces = 0;  // that stand
     double ms = 0;
 };
 

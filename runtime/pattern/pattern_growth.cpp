@@ -1,5 +1,5 @@
-// Enters: seeds, grammars, fields, surfaces by address. Leaves: pieces that stand. What runs out of room is derived again
-// with more.
+// Enters: seeds, grammars, fields, surfaces by address. Leaves: pieces that stand. What runs out of room is derived
+// again with more.
 #include "runtime/pattern/pattern_growth.hpp"
 
 #include <chrono>
@@ -21,6 +21,7 @@ Status PatternGrowth::makeKernels() {
                                  {derive_, "pattern/derive.comp", exact(), kPatternGroup},
                                  {place_, "pattern/place.comp", exact(), kPatternGroup},
                                  {look_, "pattern/look.comp", exact(), kPatternGroup},
+                                 {meet_, "pattern/meet.comp", exact(), kPatternGroup},
                                  {decide_, "pattern/decide.comp", exact(), kPatternGroup},
                                  {goOn_, "pattern/go_on.comp", exact(), kPatternGroup},
                                  {hash_, "pattern/hash.comp", exact(), kPatternGroup}});
@@ -40,6 +41,7 @@ Status PatternGrowth::makeRoom(const PatternInputs& inputs, std::span<const Fiel
                 {sets_, "pattern sets", bytes(room_.sets, sizeof(PatternSet))},
                 {pieces_, "pattern pieces", bytes(room_.pieces, sizeof(PatternPiece))},
                 {edges_, "pattern edges", bytes(room_.edges, sizeof(PatternEdge))},
+                {pairs_, "pattern pairs", bytes(room_.pairs, sizeof(PatternPair))},
                 {cells_, "pattern cells", bytes(room_.cells(), 4)},
                 {meshes_, "piece meshes", bytes(meshes.meshes.size(), sizeof(PatternMesh))},
                 {clusters_, "piece clusters", bytes(meshes.clusters.size(), sizeof(vec4))},
@@ -69,6 +71,7 @@ Status PatternGrowth::upload(Commands& commands, const PatternInputs& inputs, st
     env.sets = addressOf<PatternSetBuf>(sets_);
     env.pieces = addressOf<PatternPieceBuf>(pieces_);
     env.edges = addressOf<PatternEdgeBuf>(edges_);
+    env.pairs = addressOf<PatternPairBuf>(pairs_);
     env.cells = addressOf<UintBuf>(cells_);
     env.meshes = addressOf<PatternMeshBuf>(meshes_);
     env.clusters = addressOf<PatternVec4Buf>(clusters_);
@@ -104,6 +107,7 @@ void PatternGrowth::recordWaves(Commands& commands, uint32_t waves) {
         indirect(derive_, offsetof(PatternStatus, deriveGroups), true);
         indirect(place_, offsetof(PatternStatus, pieceGroups), true);
         indirect(look_, offsetof(PatternStatus, pieceGroups));
+        indirect(meet_, offsetof(PatternStatus, pairGroups));
         for (uint32_t r = 0; r < kPatternRounds; ++r) indirect(decide_, offsetof(PatternStatus, setGroups));
         indirect(goOn_, offsetof(PatternStatus, shapeGroups));
     }

@@ -15,8 +15,8 @@ class PatternGrowth {
   public:
     static Result<std::unique_ptr<PatternGrowth>> create(Device& device);
 
-    // Addresses in `inputs` are the device's, but for grammars and fieldTable, which are uploaded. native: on a software
-    // device whose addresses are the process's, the same text as native code. Waits for the result.
+    // Addresses in `inputs` are the device's, but for grammars and fieldTable, which are uploaded. native: on a
+    // software device whose addresses are the process's, the same text as native code. Waits for the result.
     Result<GrownPattern> grow(const PatternInputs& inputs, std::span<const FieldRef> fieldTable, bool native);
     // Dispatches of the last derivation by kernels that waited for each other.
     uint32_t dispatches() const { return dispatches_; }
@@ -32,10 +32,10 @@ class PatternGrowth {
     Result<GrownPattern> readBack();
 
     Device& device_;
-    Program begin_, derive_, place_, look_, decide_, goOn_, hash_;
+    Program begin_, derive_, place_, look_, meet_, decide_, goOn_, hash_;
     PatternRoom room_;
-    Buffer items_, shapes_, sets_, pieces_, edges_, cells_, meshes_, clusters_, corners_, status_, env_, grammars_,
-        fields_, lanes_, readback_;
+    Buffer items_, shapes_, sets_, pieces_, edges_, pairs_, cells_, meshes_, clusters_, corners_, status_, env_,
+        grammars_, fields_, lanes_, readback_;
     uint32_t dispatches_ = 0;
 };
 

@@ -12,9 +12,11 @@ PatternStatus freshPatternStatus(const PatternInputs& inputs, const PatternRoom&
     s.setRoom = room.sets;
     s.pieceRoom = room.pieces;
     s.edgeRoom = room.edges;
+    s.pairRoom = room.pairs;
     s.waiting[0] = uint32_t(inputs.seeds.size());
     s.mostDepth = inputs.limits.maxDepth;
-    for (auto* groups : {s.deriveGroups, s.shapeGroups, s.pieceGroups, s.setGroups}) groups[1] = groups[2] = 1;
+    for (auto* groups : {s.deriveGroups, s.shapeGroups, s.pieceGroups, s.pairGroups, s.setGroups})
+        groups[1] = groups[2] = 1;
     return s;
 }
 
@@ -39,8 +41,9 @@ std::vector<PatternItem> itemsOfPatternSeeds(const PatternInputs& inputs) {
 
 Status withinLimits(const PatternStatus& status, const PatternLimits& limits) {
     if (status.pieces <= limits.maxPieces) return Done{};
-    return Failure("pattern", "more than " + std::to_string(limits.maxPieces) +
-                                  " meshes were tried; does a rule go on for ever? A condition or smaller steps end it");
+    return Failure("pattern",
+                   "more than " + std::to_string(limits.maxPieces) +
+                       " meshes were tried; does a rule go on for ever? A condition or smaller steps end it");
 }
 
 GrownPattern standingOf(std::span<const PatternPiece> pieces, std::span<const PatternSet> sets,

@@ -9,7 +9,7 @@
 namespace espalier {
 
 struct PatternRoom {
-    uint32_t items = 4096, sets = 16384, pieces = 16384, edges = 65536;
+    uint32_t items = 4096, sets = 16384, pieces = 16384, edges = 65536, pairs = 65536;
 
     // Of cells, a power of two.
     uint32_t cells() const {
@@ -19,16 +19,18 @@ struct PatternRoom {
     }
     // Whether what a status tells has found room. Else there is more now, where limits allow it.
     bool holds(const PatternStatus& s) const {
-        return s.sets <= sets && s.pieces <= pieces && s.edges <= edges && s.mostItems <= items;
+        return s.sets <= sets && s.pieces <= pieces && s.edges <= edges && s.mostPairs <= pairs && s.mostItems <= items;
     }
     void grow(const PatternStatus& s) {
         const auto more = [](uint32_t& room, uint32_t asked) {
-            if (asked > room) room = uint32_t(std::min<uint64_t>(std::max(2ull * room, asked + asked / 2ull), 1u << 30));
+            if (asked > room)
+                room = uint32_t(std::min<uint64_t>(std::max(2ull * room, asked + asked / 2ull), 1u << 30));
         };
         more(items, s.mostItems);
         more(sets, s.sets);
         more(pieces, s.pieces);
         more(edges, s.edges);
+        more(pairs, s.mostPairs);
     }
 };
 

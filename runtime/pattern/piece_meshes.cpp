@@ -84,8 +84,8 @@ void PieceMeshes::add(std::span<const glm::vec3> positions, std::span<const uint
     mesh.firstVertex = uint32_t(corners.size());
     mesh.triangleCount = uint32_t(triangles.size());
     for (size_t first = 0; first < triangles.size(); first += kClusterTriangles)
-        clusters.push_back(
-            sphereAround(std::span(triangles).subspan(first, std::min<size_t>(kClusterTriangles, triangles.size() - first))));
+        clusters.push_back(sphereAround(
+            std::span(triangles).subspan(first, std::min<size_t>(kClusterTriangles, triangles.size() - first))));
     mesh.clusterCount = uint32_t(clusters.size()) - mesh.firstCluster;
     mesh.closed = isClosed(triangles);
     mesh.within = mesh.closed ? pointWithin(triangles) : vec3(0);

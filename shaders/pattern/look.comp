@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Pieces of a wave against all that they may meet.
+// Pieces of a wave -> pairs with all that they may meet.
 #include "shaders/shared/extensions.glsl"
 #include "shaders/shared/pattern_decide.h"
 

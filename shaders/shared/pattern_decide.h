@@ -36,16 +36,16 @@ FN bool liesAside(vec3 n, vec3 a, vec3 p, vec3 q, vec3 r) {
     return (x >= 0.0f && y >= 0.0f && z >= 0.0f) || (x <= 0.0f && y <= 0.0f && z <= 0.0f);
 }
 
-// Of triangle a, b, c against run j of the mesh n of piece q, which lies within the sphere.
-FN bool triangleMeets(PatternEnv env, vec3 a, vec3 b, vec3 c, PatternPiece q, PatternMesh n, uint j, vec3 centre,
+// Of triangle a, b, c against run j of piece q's mesh n, which lies within the sphere.
+FN bool triangleMeets(PatternEnv env, vec3 a, vec3 b, vec3 c, PatternPiece q, uint n, uint j, vec3 centre,
                       float radius) {
     vec3 normal = cross3(b - a, c - a);
     float off = dot3(normal, centre - a);
     if (off * off > radius * radius * dot3(normal, normal)) return false;
-    uint end = fewer(n.triangleCount, (j + 1u) * kClusterTriangles);
+    uint end = fewer(env.meshes.v[n].triangleCount, (j + 1u) * kClusterTriangles);
     bool meet = false;
     for (uint t = j * kClusterTriangles; t < end && !meet; ++t) {
-        uint to = n.firstVertex + 3u * t;
+        uint to = env.meshes.v[n].firstVertex + 3u * t;
         vec3 d = placedPoint(q, env.corners.v[to]);
         vec3 e = placedPoint(q, env.corners.v[to + 1u]);
         vec3 f = placedPoint(q, env.corners.v[to + 2u]);
@@ -56,12 +56,12 @@ FN bool triangleMeets(PatternEnv env, vec3 a, vec3 b, vec3 c, PatternPiece q, Pa
 }
 
 // Run i of a mesh against run j of another, which lies within the sphere.
-FN bool clustersMeet(PatternEnv env, PatternPiece p, PatternMesh m, uint i, PatternPiece q, PatternMesh n, uint j,
-                     vec3 centre, float radius) {
-    uint end = fewer(m.triangleCount, (i + 1u) * kClusterTriangles);
+FN bool clustersMeet(PatternEnv env, PatternPiece p, uint m, uint i, PatternPiece q, uint n, uint j, vec3 centre,
+                     float radius) {
+    uint end = fewer(env.meshes.v[m].triangleCount, (i + 1u) * kClusterTriangles);
     bool meet = false;
     for (uint s = i * kClusterTriangles; s < end && !meet; ++s) {
-        uint at = m.firstVertex + 3u * s;
+        uint at = env.meshes.v[m].firstVertex + 3u * s;
         vec3 a = placedPoint(p, env.corners.v[at]);
         vec3 b = placedPoint(p, env.corners.v[at + 1u]);
         vec3 c = placedPoint(p, env.corners.v[at + 2u]);
@@ -71,18 +71,21 @@ FN bool clustersMeet(PatternEnv env, PatternPiece p, PatternMesh m, uint i, Patt
 }
 
 // Whether a point of the world is inside of a piece: a ray from it leaves through an odd number of triangles.
-FN bool isWithin(PatternEnv env, PatternPiece p, PatternMesh m, vec3 point) {
+FN bool isWithin(PatternEnv env, PatternPiece p, uint m, vec3 point) {
     vec3 off = point - p.position;
     vec3 o = vec3(divExact(dot3(off, p.x), dot3(p.x, p.x)), divExact(dot3(off, p.y), dot3(p.y, p.y)),
                   divExact(dot3(off, p.z), dot3(p.z, p.z)));
-    vec3 away = o - m.centre;
-    if (m.closed == 0u || dot3(away, away) > m.radius * m.radius) return false;
+    vec3 away = o - env.meshes.v[m].centre;
+    float radius = env.meshes.v[m].radius;
+    if (env.meshes.v[m].closed == 0u || dot3(away, away) > radius * radius) return false;
     vec3 d = vec3(0.5377f, 0.7311f, 0.4197f);
     bool odd = false;
-    for (uint t = 0u; t < m.triangleCount; ++t) {
-        vec3 a = env.corners.v[m.firstVertex + 3u * t] - o;
-        vec3 b = env.corners.v[m.firstVertex + 3u * t + 1u] - o;
-        vec3 c = env.corners.v[m.firstVertex + 3u * t + 2u] - o;
+    uint first = env.meshes.v[m].firstVertex;
+    uint count = env.meshes.v[m].triangleCount;
+    for (uint t = 0u; t < count; ++t) {
+        vec3 a = env.corners.v[first + 3u * t] - o;
+        vec3 b = env.corners.v[first + 3u * t + 1u] - o;
+        vec3 c = env.corners.v[first + 3u * t + 2u] - o;
         float u = dot3(d, cross3(a, b));
         float v = dot3(d, cross3(b, c));
         float w = dot3(d, cross3(c, a));
@@ -97,20 +100,20 @@ FN bool isWithin(PatternEnv env, PatternPiece p, PatternMesh m, vec3 point) {
 
 // Whether two pieces run through each other, or one is within the other.
 FN bool piecesMeet(PatternEnv env, PatternPiece p, PatternPiece q) {
-    PatternMesh m = env.meshes.v[p.mesh & 0xFFFFu];
-    PatternMesh n = env.meshes.v[q.mesh & 0xFFFFu];
+    uint m = p.mesh & 0xFFFFu;
+    uint n = q.mesh & 0xFFFFu;
     vec4 sphere = sphereOf(env, q);
     float scaleP = largestSide(p);
     float scaleQ = largestSide(q);
     bool meet = false;
-    for (uint i = 0u; i < m.clusterCount && !meet; ++i) {
-        vec4 k = env.clusters.v[m.firstCluster + i];
+    for (uint i = 0u; i < env.meshes.v[m].clusterCount && !meet; ++i) {
+        vec4 k = env.clusters.v[env.meshes.v[m].firstCluster + i];
         vec3 c = placedPoint(p, vec3(k.x, k.y, k.z));
         float r = k.w * scaleP;
         vec3 off = vec3(sphere.x, sphere.y, sphere.z) - c;
         if (dot3(off, off) > (r + sphere.w) * (r + sphere.w)) continue;
-        for (uint j = 0u; j < n.clusterCount && !meet; ++j) {
-            vec4 l = env.clusters.v[n.firstCluster + j];
+        for (uint j = 0u; j < env.meshes.v[n].clusterCount && !meet; ++j) {
+            vec4 l = env.clusters.v[env.meshes.v[n].firstCluster + j];
             vec3 centre = placedPoint(q, vec3(l.x, l.y, l.z));
             float radius = l.w * scaleQ;
             vec3 apart = centre - c;
@@ -118,38 +121,56 @@ FN bool piecesMeet(PatternEnv env, PatternPiece p, PatternPiece q) {
             if (dot3(apart, apart) <= reach * reach) meet = clustersMeet(env, p, m, i, q, n, j, centre, radius);
         }
     }
-    if (!meet) meet = isWithin(env, q, n, placedPoint(p, m.within)) || isWithin(env, p, m, placedPoint(q, n.within));
+    if (!meet) meet = isWithin(env, q, n, placedPoint(p, env.meshes.v[m].within)) || isWithin(env, p, m, placedPoint(q, env.meshes.v[n].within));
     return meet;
 }
 
-// Whether piece `other`, which hasn't fallen, counts against the piece's set, and what follows if they meet; sphere, s:
-// around the piece and the other. False: the set has fallen.
-FN bool meetOne(PatternEnv env, PatternPiece piece, vec4 sphere, vec4 s, uint other) {
-    uint set = env.pieces.v[other].set;
-    if (set == piece.set) return true;
-    bool before = set < env.status.v[0].firstSet;
-    if (!before && !comesBefore(env.sets.v[set], env.sets.v[piece.set])) return true;
-    vec3 off = vec3(s.x, s.y, s.z) - vec3(sphere.x, sphere.y, sphere.z);
-    float reach = s.w + sphere.w;
-    if (dot3(off, off) > reach * reach || !piecesMeet(env, env.pieces.v[other], piece)) return true;
-    if (before) {
-        settle(env, piece.set, kSetFallen);
-        return false;
+// Pair k of the wave: where its pieces meet, the later one's set falls, or waits for the earlier one's.
+FN void meetPair(PatternEnv env, uint k) {
+    PatternPair pair = env.pairs.v[k];
+    uint own = env.pieces.v[pair.piece].set;
+    uint set = env.pieces.v[pair.other].set;
+    // One that stands is enough.
+    if (loadShared(env.sets.v[own].state) != kSetOpen) return;
+    if (!piecesMeet(env, env.pieces.v[pair.other], env.pieces.v[pair.piece])) return;
+    if (set < env.status.v[0].firstSet) {
+        settle(env, own, kSetFallen);
+        return;
     }
     uint edge = atomicAdd(env.status.v[0].edges, 1u);
     if (edge < env.status.v[0].edgeRoom) {
         env.edges.v[edge].set = set;
-        env.edges.v[edge].next = atomicExchange(env.sets.v[piece.set].met, edge);
+        env.edges.v[edge].next = atomicExchange(env.sets.v[own].met, edge);
     }
-    return true;
 }
 
-// Piece i of the wave against all that stands or may come to stand before it.
+// Whether piece `other` may be met by `own`'s set, whose spheres overlap: not by one of its own set, nor by one that comes
+// after it in the order.
+FN bool countsAgainst(PatternEnv env, uint own, vec4 sphere, uint set, vec4 s) {
+    vec3 off = vec3(s.x, s.y, s.z) - vec3(sphere.x, sphere.y, sphere.z);
+    float reach = s.w + sphere.w;
+    if (set == own || dot3(off, off) > reach * reach) return false;
+    return set < env.status.v[0].firstSet || comesBefore(env.sets.v[set], env.sets.v[own]);
+}
+
+FN void addPair(PatternEnv env, uint piece, uint other) {
+    uint at = atomicAdd(env.status.v[0].pairs, 1u);
+    if (at >= env.status.v[0].pairRoom) {
+        atomicMax(env.status.v[0].mostPairs, at + 1u);
+        return;
+    }
+    env.pairs.v[at].piece = piece;
+    env.pairs.v[at].other = other;
+    if (at % kPatternGroup == 0u) atomicMax(env.status.v[0].pairGroups[0], patternGroups(at + 1u));
+}
+
+// Piece i of the wave -> pairs with all that stands or may come to stand before it and that it may meet.
 FN void lookAround(PatternEnv env, uint i) {
-    PatternPiece piece = env.pieces.v[env.status.v[0].firstPiece + i];
-    bool goesOn = (piece.mesh & kPieceFree) == 0u && loadShared(env.sets.v[piece.set].state) == kSetOpen;
-    vec4 sphere = sphereOf(env, piece);
-    for (uint left = goesOn ? env.status.v[0].classes : 0u; left != 0u && goesOn; left = left & (left - 1u)) {
+    uint piece = env.status.v[0].firstPiece + i;
+    uint own = env.pieces.v[piece].set;
+    bool looks = (env.pieces.v[piece].mesh & kPieceFree) == 0u && loadShared(env.sets.v[own].state) == kSetOpen;
+    vec4 sphere = sphereOf(env, env.pieces.v[piece]);
+    for (uint left = looks ? env.status.v[0].classes : 0u; left != 0u; left = left & (left - 1u)) {
         uint c = lowestBit(left);
         float side = cellSide(c);
         float reach = sphere.w + 0.5f * side;
@@ -159,19 +180,20 @@ FN void lookAround(PatternEnv env, uint i) {
         uint nx = uint(cellIndex(sphere.x + reach, side) - x0) + 1u;
         uint ny = uint(cellIndex(sphere.y + reach, side) - y0) + 1u;
         uint nz = uint(cellIndex(sphere.z + reach, side) - z0) + 1u;
-        for (uint n = 0u; n < nx * ny * nz && goesOn; ++n) {
+        for (uint n = 0u; n < nx * ny * nz; ++n) {
             int x = x0 + int(n % nx);
             int y = y0 + int((n / nx) % ny);
             int z = z0 + int(n / (nx * ny));
             uint other = env.cells.v[cellAt3(env, c, x, y, z)];
             // Cells share lists where their hashes agree: a piece is looked at from its own cell only.
-            while (other != kNoIndex && goesOn) {
+            while (other != kNoIndex) {
+                uint set = env.pieces.v[other].set;
                 // Of ten pieces that have been tried, nine may have fallen.
-                if (loadShared(env.sets.v[env.pieces.v[other].set].state) != kSetFallen) {
+                if (loadShared(env.sets.v[set].state) != kSetFallen) {
                     vec4 s = sphereOf(env, env.pieces.v[other]);
                     bool here = classOf(s.w) == c && cellIndex(s.x, side) == x && cellIndex(s.y, side) == y &&
                                 cellIndex(s.z, side) == z;
-                    if (here) goesOn = meetOne(env, piece, sphere, s, other);
+                    if (here && countsAgainst(env, own, sphere, set, s)) addPair(env, piece, other);
                 }
                 other = env.pieces.v[other].next;
             }
@@ -198,7 +220,7 @@ FN void decideSet(PatternEnv env, uint i) {
 
 FN bool waveDecided(PatternEnv env) { return env.status.v[0].decided == env.status.v[0].sets - env.status.v[0].firstSet; }
 FN bool foundRoom(PatternEnv env) {
-    return foundSetRoom(env) && env.status.v[0].edges <= env.status.v[0].edgeRoom && env.status.v[0].mostItems <= env.status.v[0].itemRoom;
+    return foundSetRoom(env) && env.status.v[0].edges <= env.status.v[0].edgeRoom && env.status.v[0].mostPairs == 0u && env.status.v[0].mostItems <= env.status.v[0].itemRoom;
 }
 
 // Shape i of the wave, once all sets have their fate: what its production makes that goes on.
@@ -252,6 +274,8 @@ FN void beginWave(PatternEnv env) {
     }
     env.status.v[0].deriveGroups[0] = 0u;
     env.status.v[0].pieceGroups[0] = 0u;
+    env.status.v[0].pairGroups[0] = 0u;
+    env.status.v[0].pairs = 0u;
     if (!goes) {   // only sets are looked at once more
         env.status.v[0].setGroups[0] = room ? env.status.v[0].setGroups[0] : 0u;
         return;

@@ -81,6 +81,12 @@ struct PatternEdge {
 };
 STATIC_SIZE(PatternEdge, 8);
 
+// Two pieces that may meet: `piece` of this wave, `other` before it in the order.
+struct PatternPair {
+    uint piece, other;
+};
+STATIC_SIZE(PatternPair, 8);
+
 // The triangles by which a mesh meets others, in its own space.
 struct PatternMesh {
     vec3 centre;         // of a sphere around all
@@ -97,28 +103,31 @@ BUFFER(PatternItemBuf, PatternItem)
 BUFFER(PatternShapeBuf, PatternShape)
 BUFFER(PatternSetBuf, PatternSet)
 BUFFER(PatternEdgeBuf, PatternEdge)
+BUFFER(PatternPairBuf, PatternPair)
 BUFFER(PatternMeshBuf, PatternMesh)
 BUFFER(PatternVec4Buf, vec4)
 BUFFER(PatternVec3Buf, vec3)
 
 // Counters. What is taken may exceed its room: then nothing was written beyond it, and the host grows again with more.
 struct PatternStatus {
-    uint sets, pieces, edges;                       // taken, of all waves
-    uint itemRoom, setRoom, pieceRoom, edgeRoom;    // itemRoom: of each priority
+    uint sets, pieces, edges, pairs;                // taken, of all waves; pairs: of the wave
+    uint itemRoom, setRoom, pieceRoom, edgeRoom, pairRoom;   // itemRoom: of each priority
     uint waiting[8];                                // symbols that wait, by priority
     uint mostItems;                                 // most that waited in one priority
     uint wave, waves;                               // items of the wave that goes on; how many have begun
     uint priority;                                  // that it takes its items from
     uint firstSet, firstPiece;                      // of the wave
     uint decided;                                   // of its sets
-    uint deriveGroups[3], shapeGroups[3], pieceGroups[3], setGroups[3];   // VkDispatchIndirectCommand
+    // VkDispatchIndirectCommand
+    uint deriveGroups[3], shapeGroups[3], pieceGroups[3], pairGroups[3], setGroups[3];
+    uint mostPairs;                                 // of a wave, where that was too many
     uint classes;                                   // bit c: there are pieces of class c
     uint rounds;                                    // of decisions, all waves together: as many as were of use
     uint shapes, standing, fallen, ended, deep;     // symbols derived; sets; symbols at a surface's end, beyond maxDepth
     uint mostDepth;
     uint hash[2];
 };
-STATIC_SIZE(PatternStatus, 176);
+STATIC_SIZE(PatternStatus, 200);
 BUFFER(PatternStatusBuf, PatternStatus)
 
 struct PatternEnv {
@@ -131,6 +140,7 @@ struct PatternEnv {
     PatternSetBuf sets;
     PatternPieceBuf pieces;
     PatternEdgeBuf edges;
+    PatternPairBuf pairs;
     UintBuf cells;           // first piece of each cell, kNoIndex: none; a power of two of them
     PatternMeshBuf meshes;
     PatternVec4Buf clusters; // spheres of meshes' runs of triangles
@@ -139,7 +149,7 @@ struct PatternEnv {
     uint instances;
     uint cellMask;
 };
-STATIC_SIZE(PatternEnv, 120);
+STATIC_SIZE(PatternEnv, 128);
 BUFFER(PatternEnvBuf, PatternEnv)
 
 FN uint patternGroups(uint items) {
