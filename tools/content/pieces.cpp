@@ -134,12 +134,14 @@ Solid scale(int across, int up) {
     return leafOf(
         up, across, .05f,
         [](float s, float t) {
-            const float x = s, y = 2 * t - 1;
-            const float half = x < .5f ? .5f : .5f * std::sqrt(std::max(1 - 4 * (x - .5f) * (x - .5f), 0.0f));
+            // Rows around the tip stand at even angles, which makes it round by few of them.
+            const float turn = s < .5f ? 0 : (s - .5f) * std::numbers::pi_v<float>;
+            const float x = s < .5f ? s : .5f + .5f * std::sin(turn), y = 2 * t - 1;
+            const float half = .5f * std::cos(turn);
             const float rise = .06f + .16f * x + .16f * (1 - y * y) * (1 - .4f * x);
             return vec3(x - .5f, half * y, rise);
         },
-        [](float s, float t) { return .78f + .22f * s - .12f * std::abs(2 * t - 1); });
+        [](float s, float t) { return .45f + .55f * s - .15f * std::abs(2 * t - 1); });
 }
 
 Solid leaf(int across, int up) {
@@ -209,7 +211,7 @@ PieceMeshes makePieceMeshes() {
         add("cobble", lod, turnedBody(std::max(n / 2, 6), domeProfile(std::max(m / 3, 2), .55f), cobble).mesh, 0);
         add("cylinder", lod, turnedBody(std::max(n / 2, 5), drum, alongY).mesh, 0);
         add("rod", lod, turnedBody(std::max(n / 2, 5), bar, alongX).mesh, 0);
-        add("scale", lod, scale(lod == 2 ? 2 : 6 >> lod, lod == 2 ? 2 : 6 >> lod).mesh, 1);
+        add("scale", lod, scale(lod == 2 ? 2 : 6 - 2 * lod, lod == 2 ? 3 : 8 - 4 * lod).mesh, 1);
         add("leaf", lod, leaf(2, lod == 2 ? 2 : 6 >> lod).mesh, 0);
         add("blossom", lod, blossom(5, 2, lod == 0 ? 4 : 2), 0);
     }
