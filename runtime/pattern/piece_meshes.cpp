@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "runtime/pattern/pattern_data.hpp"
+#include "runtime/surface/triangle_distance.hpp"
 
 namespace espalier {
 namespace {
@@ -54,22 +56,33 @@ bool isClosed(std::span<const Corner> triangles) {
     return !triangles.empty() && std::ranges::all_of(edges, [](const auto& e) { return e.second == 0; });
 }
 
-// A point inside of a closed mesh: in the middle between the largest triangle and what lies behind it.
-vec3 pointWithin(std::span<const Corner> triangles) {
+// In the middle between a triangle and what lies behind it.
+vec3 middleBehind(std::span<const Corner> triangles, const Corner& front) {
     const auto across = [](const Corner& t) { return glm::cross(t[1] - t[0], t[2] - t[0]); };
-    const Corner& largest =
-        *std::ranges::max_element(triangles, {}, [&](const Corner& t) { return glm::length(across(t)); });
-    const vec3 from = middleOf(largest), inward = -glm::normalize(across(largest));
+    const vec3 from = middleOf(front), inward = -glm::normalize(across(front));
     float behind = 1e30f;
     for (const Corner& t : triangles) {
         const vec3 n = across(t);
         const float towards = glm::dot(n, inward), at = glm::dot(n, t[0] - from) / towards;
-        if (&t == &largest || !(std::abs(towards) > 0) || !(at > 0) || at >= behind) continue;
+        if (&t == &front || !(std::abs(towards) > 0) || !(at > 0) || at >= behind) continue;
         const vec3 p = from + inward * at;
         const auto side = [&](int i) { return glm::dot(n, glm::cross(t[(i + 1) % 3] - t[i], p - t[i])) >= 0; };
         if (side(0) && side(1) && side(2)) behind = at;
     }
     return behind < 1e30f ? from + inward * (behind / 2) : from;
+}
+
+// A ball inside of a closed mesh: the largest of those whose middle is behind one of some sixty triangles.
+vec4 ballWithin(std::span<const Corner> triangles) {
+    constexpr size_t kMostTries = 64;
+    vec4 largest(0);
+    for (size_t i = 0; i < triangles.size(); i += 1 + triangles.size() / kMostTries) {
+        const vec3 middle = middleBehind(triangles, triangles[i]);
+        double radius = 1e30;
+        for (const Corner& t : triangles) radius = std::min(radius, distanceToTriangle(middle, {t[0], t[1], t[2]}));
+        if (float(radius) > largest.w) largest = vec4(middle, float(radius));
+    }
+    return largest;
 }
 
 }  // namespace
@@ -87,12 +100,19 @@ void PieceMeshes::add(std::span<const glm::vec3> positions, std::span<const uint
         clusters.push_back(sphereAround(
             std::span(triangles).subspan(first, std::min<size_t>(kClusterTriangles, triangles.size() - first))));
     mesh.clusterCount = uint32_t(clusters.size()) - mesh.firstCluster;
-    mesh.closed = isClosed(triangles);
-    mesh.within = mesh.closed ? pointWithin(triangles) : vec3(0);
+    const vec4 ball = isClosed(triangles) ? ballWithin(triangles) : vec4(0);
+    mesh.within = vec3(ball);
+    mesh.inner = ball.w * .9999f;
     const vec4 all = triangles.empty() ? vec4(0) : sphereAround(triangles);
     mesh.centre = vec3(all);
     mesh.radius = all.w;
     for (const Corner& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+    std::vector<vec3> places(corners.begin() + mesh.firstVertex, corners.end());
+    std::ranges::sort(places, {}, [](const vec3& p) { return std::tuple(p.x, p.y, p.z); });
+    const auto repeated = std::ranges::unique(places);
+    places.erase(repeated.begin(), repeated.end());
+    corners.insert(corners.end(), places.begin(), places.end());
+    mesh.placeCount = uint32_t(places.size());
     meshes.push_back(mesh);
 }
 

@@ -77,7 +77,7 @@ FN bool isWithin(PatternEnv env, PatternPiece p, uint m, vec3 point) {
                   divExact(dot3(off, p.z), dot3(p.z, p.z)));
     vec3 away = o - env.meshes.v[m].centre;
     float radius = env.meshes.v[m].radius;
-    if (env.meshes.v[m].closed == 0u || dot3(away, away) > radius * radius) return false;
+    if (!(env.meshes.v[m].inner > 0.0f) || dot3(away, away) > radius * radius) return false;
     vec3 d = vec3(0.5377f, 0.7311f, 0.4197f);
     bool odd = false;
     uint first = env.meshes.v[m].firstVertex;
@@ -98,11 +98,28 @@ FN bool isWithin(PatternEnv env, PatternPiece p, uint m, vec3 point) {
     return odd;
 }
 
+// How far a piece reaches in a direction.
+FN float reachOf(PatternEnv env, PatternPiece p, vec3 direction) {
+    uint m = p.mesh & 0xFFFFu;
+    vec3 d = vec3(dot3(direction, p.x), dot3(direction, p.y), dot3(direction, p.z));
+    uint first = env.meshes.v[m].firstVertex + 3u * env.meshes.v[m].triangleCount;
+    uint end = first + env.meshes.v[m].placeCount;
+    float most = -1e30f;
+    for (uint i = first; i < end; ++i) most = larger(most, dot3(d, env.corners.v[i]));
+    return most + dot3(direction, p.position);
+}
+// Whether a plane across the line between their middles has the pieces on its two sides, as most neighbours.
+FN bool standApart(PatternEnv env, PatternPiece p, PatternPiece q, vec3 fromPToQ) {
+    return reachOf(env, p, fromPToQ) < -reachOf(env, q, -fromPToQ);
+}
+
 // Whether two pieces run through each other, or one is within the other.
 FN bool piecesMeet(PatternEnv env, PatternPiece p, PatternPiece q) {
     uint m = p.mesh & 0xFFFFu;
     uint n = q.mesh & 0xFFFFu;
     vec4 sphere = sphereOf(env, q);
+    vec4 spherePs = sphereOf(env, p);
+    if (standApart(env, p, q, vec3(sphere.x - spherePs.x, sphere.y - spherePs.y, sphere.z - spherePs.z))) return false;
     float scaleP = largestSide(p);
     float scaleQ = largestSide(q);
     bool meet = false;
@@ -164,12 +181,28 @@ FN void addPair(PatternEnv env, uint piece, uint other) {
     if (at % kPatternGroup == 0u) atomicMax(env.status.v[0].pairGroups[0], patternGroups(at + 1u));
 }
 
-// Piece i of the wave -> pairs with all that stands or may come to stand before it and that it may meet.
+// A ball inside of a piece; its radius is 0 where there is none.
+FN vec4 ballWithin(PatternEnv env, PatternPiece p) {
+    PatternMesh m = env.meshes.v[p.mesh & 0xFFFFu];
+    vec3 c = placedPoint(p, m.within);
+    float side2 = smaller(smaller(dot3(p.x, p.x), dot3(p.y, p.y)), dot3(p.z, p.z));
+    return vec4(c.x, c.y, c.z, m.inner * sqrtExact(side2));
+}
+FN bool ballsMeet(vec4 a, vec4 b) {
+    vec3 off = vec3(a.x - b.x, a.y - b.y, a.z - b.z);
+    float reach = (a.w + b.w) * 0.999f;
+    return a.w > 0.0f && b.w > 0.0f && dot3(off, off) < reach * reach;
+}
+
+// Piece i of the wave -> pairs with all that stands or may come to stand before it and that it may meet. Most tries run
+// so deep into a piece that stands that balls inside of both say so, and need no pair.
 FN void lookAround(PatternEnv env, uint i) {
     uint piece = env.status.v[0].firstPiece + i;
     uint own = env.pieces.v[piece].set;
     bool looks = (env.pieces.v[piece].mesh & kPieceFree) == 0u && loadShared(env.sets.v[own].state) == kSetOpen;
     vec4 sphere = sphereOf(env, env.pieces.v[piece]);
+    vec4 ball = ballWithin(env, env.pieces.v[piece]);
+    bool fell = false;
     for (uint left = looks ? env.status.v[0].classes : 0u; left != 0u; left = left & (left - 1u)) {
         uint c = lowestBit(left);
         float side = cellSide(c);
@@ -180,25 +213,29 @@ FN void lookAround(PatternEnv env, uint i) {
         uint nx = uint(cellIndex(sphere.x + reach, side) - x0) + 1u;
         uint ny = uint(cellIndex(sphere.y + reach, side) - y0) + 1u;
         uint nz = uint(cellIndex(sphere.z + reach, side) - z0) + 1u;
-        for (uint n = 0u; n < nx * ny * nz; ++n) {
+        for (uint n = 0u; n < nx * ny * nz && !fell; ++n) {
             int x = x0 + int(n % nx);
             int y = y0 + int((n / nx) % ny);
             int z = z0 + int(n / (nx * ny));
             uint other = env.cells.v[cellAt3(env, c, x, y, z)];
             // Cells share lists where their hashes agree: a piece is looked at from its own cell only.
-            while (other != kNoIndex) {
+            while (other != kNoIndex && !fell) {
                 uint set = env.pieces.v[other].set;
                 // Of ten pieces that have been tried, nine may have fallen.
                 if (loadShared(env.sets.v[set].state) != kSetFallen) {
                     vec4 s = sphereOf(env, env.pieces.v[other]);
                     bool here = classOf(s.w) == c && cellIndex(s.x, side) == x && cellIndex(s.y, side) == y &&
                                 cellIndex(s.z, side) == z;
-                    if (here && countsAgainst(env, own, sphere, set, s)) addPair(env, piece, other);
+                    if (here && countsAgainst(env, own, sphere, set, s)) {
+                        fell = set < env.status.v[0].firstSet && ballsMeet(ball, ballWithin(env, env.pieces.v[other]));
+                        if (!fell) addPair(env, piece, other);
+                    }
                 }
                 other = env.pieces.v[other].next;
             }
         }
     }
+    if (fell) settle(env, own, kSetFallen);
 }
 
 // One round for set i of the wave: its fate, if those that it hangs on have theirs.

@@ -92,12 +92,13 @@ struct PatternMesh {
     vec3 centre;         // of a sphere around all
     float radius;
     uint firstCluster, clusterCount;
-    uint firstVertex;    // three for each triangle, cluster after cluster
+    uint firstVertex;    // three for each triangle, cluster after cluster, then all once more, each place but once
     uint triangleCount;
-    vec3 within;         // a point inside of it
-    uint closed;         // 1: it has an inside
+    uint placeCount;     // places of vertices
+    vec3 within;         // the middle of a ball inside of it
+    float inner;         // the ball's radius; 0: the mesh has no inside
 };
-STATIC_SIZE(PatternMesh, 48);
+STATIC_SIZE(PatternMesh, 52);
 
 BUFFER(PatternItemBuf, PatternItem)
 BUFFER(PatternShapeBuf, PatternShape)
