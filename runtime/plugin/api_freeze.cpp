@@ -43,13 +43,13 @@ EspResult freeze(EspContext& context, PlantedSeed& seed, uint32_t id) {
             &context, ESP_INVALID_ARGUMENT,
             "espFreezePlant: a surface that the plant has grown on is gone, scaled or moved against another since");
     seed.frozen = std::move(plant);
-    ++context.revision;
+    context.nodes.seeds.change();
     return ESP_OK;
 }
 
 void thaw(EspContext& context, PlantedSeed& seed) {
     seed.frozen = nullptr;
-    ++context.revision;
+    context.nodes.seeds.change();
 }
 
 EspResult freezeAs(EspContext& context, PlantedSeed& seed, std::span<const std::byte> bytes) {
@@ -63,7 +63,7 @@ EspResult freezeAs(EspContext& context, PlantedSeed& seed, std::span<const std::
     auto frozen = std::make_shared<PlantRecords>(std::move(*plant));
     context.changes.frozen.push_back(seedKey(seed));  // unlike a plant that is frozen as it stands
     seed.frozen = std::move(frozen);
-    ++context.revision;
+    context.nodes.seeds.change();
     return ESP_OK;
 }
 

@@ -59,7 +59,6 @@ Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, uin
     LoadedGrammar grammar;
     grammar.name = def.name ? def.name : "grammar";
     grammar.map = std::move(*map);
-    grammar.revision = ++context.grammarRevisions;
     grammar.warnings = toString(grammar.map.warnings());
     for (const Diagnostic& warning : grammar.map.warnings()) context.log(Severity::warning, toString(warning));
     if (const LoadedGrammar* old = context.grammars.find(oldId))
@@ -190,7 +189,7 @@ EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGramm
         noteRules(*context, context->grammarIndex(id.id), {old->map, old->layerOf}, {grammar->map, grammar->layerOf});
         binding.done();
         *old = std::move(*grammar);
-        old->edition = ++context->revision;
+        context->changeRules(*old);
         return ESP_OK;
     });
 }
@@ -209,7 +208,7 @@ EspResult espDestroyGrammar(EspContext* context, EspGrammar id) {
         });
         for (uint32_t seedId : gone) removeSeed(*context, seedId);
         context->grammars.erase(id.id);
-        ++context->revision;
+        context->nodes.rules.change();
         return ESP_OK;
     });
 }
@@ -254,10 +253,8 @@ EspResult espSetParam(EspContext* context, EspGrammar id, const char* name, cons
                         grammar->name + ": '" + name + "' takes " + std::to_string(takes) +
                             (takes == 1 ? " number" : " numbers"));
         if (const uint32_t slots = grammar->map.setParam(*index, std::span(value, count))) {
-            grammar->stale = true;
             context->changes.markUses(context->grammarIndex(id.id), slots);
-            grammar->edition = ++context->revision;
-            grammar->revision = ++context->grammarRevisions;
+            context->changeRules(*grammar);
         }
         return ESP_OK;
     });

@@ -107,7 +107,8 @@ std::string causeOf(const std::vector<Diagnostic>& diagnostics) {
     return cause;
 }
 
-void replaceHouse(LoadedTown& town, uint32_t index, const RoofStructure& made, size_t part) {
+void replaceHouse(EspContext& context, uint32_t index, const RoofStructure& made, size_t part) {
+    LoadedTown& town = *context.town;
     RoofStructure one;
     one.faces = made.faces;
     one.segments = made.segments;
@@ -119,7 +120,7 @@ void replaceHouse(LoadedTown& town, uint32_t index, const RoofStructure& made, s
     house.firstFace = firstFace;  // the town's faces are what it was loaded with; atoms hold what counts
     house.faceCount = faceCount;
     town.changed.push_back(index);
-    town.revision += 1;
+    context.nodes.town.change();
 }
 
 EspResult setHouse(EspContext& context, uint32_t index, const Footprint& footprint) {
@@ -138,7 +139,7 @@ EspResult setHouse(EspContext& context, uint32_t index, const Footprint& footpri
                     footprint.id + ": the outline crosses or touches itself, so that the house would fall into " +
                         std::to_string(made.houses.size()) + " parts; it stands as it did");
     std::map<uint32_t, ChangedHouse> changed{{index, ChangedHouse{footprint, RoofHouse(plannedHouse(town, index))}}};
-    replaceHouse(town, index, made, part);
+    replaceHouse(context, index, made, part);
     town.changedHouses.erase(index);
     town.changedHouses.merge(changed);  // takes no memory
     return ESP_OK;
@@ -150,7 +151,7 @@ EspResult resetHouse(EspContext& context, uint32_t index) {
     RoofStructure made;
     std::vector<Diagnostic> ignored;  // told when the town was loaded
     appendRoof(town.footprints[town.footprintOf[index]], made, ignored);
-    replaceHouse(town, index, made, partOf(town, index));
+    replaceHouse(context, index, made, partOf(town, index));
     town.changedHouses.erase(index);
     return ESP_OK;
 }

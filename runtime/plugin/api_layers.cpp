@@ -20,7 +20,7 @@ bool isRead(const EspContext& context, uint32_t number, uint32_t without) {
     });
     for (const GrammarVariant& variant : context.variants) {
         const LoadedGrammar* grammar = context.grammars.find(variant.grammar);
-        const bool stands = grammar && variant.edition == grammar->edition;  // else it takes its grammar's next
+        const bool stands = grammar && variant.madeFrom == grammar->version;  // else it takes its grammar's next
         if (variant.used && variant.grammar != without && stands) look(variant.layerOf);
     }
     return read;
@@ -75,7 +75,7 @@ std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name,
         if (number == kMaxLayers) return std::nullopt;
         layers[number] = wanted;
     }
-    context.tablesStale = true;
+    context.nodes.layers.change();
     return number;
 }
 
@@ -114,7 +114,7 @@ void layerChanged(EspContext& context, uint32_t surface, const std::string& name
             }
         }
     }
-    ++context.revision;
+    context.nodes.paint.change();
 }
 
 void wholeLayerChanged(EspContext& context, uint32_t surface, const std::string& name) {
@@ -123,7 +123,7 @@ void wholeLayerChanged(EspContext& context, uint32_t surface, const std::string&
     for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
         if (context.sceneLayers[layer].name == name)
             context.changes.markLayer(placed.instance, layer, placed.data.levels.front().size);
-    ++context.revision;
+    context.nodes.paint.change();
 }
 
 }  // namespace espalier

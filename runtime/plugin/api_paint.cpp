@@ -132,7 +132,7 @@ EspResult paintSurfaces(EspContext& context, PaintStroke& stroke, std::span<cons
     std::vector<PaintJob> jobs;
     const float fill = declaredFill(context, stroke.layer).value_or(0);
     if (EspResult bad = jobsFor(context, stroke, fill, touched, jobs)) return bad;
-    Undo untold([&] { context.touch(); });
+    Undo untold([&] { context.changeWholly(context.nodes.paint); });
     Status painted =
         stroke.smooths ? smooth(context, jobs, stroke, dabs) : context.painter->dabs(jobs, stroke.brush, dabs);
     for (const auto& [id, blocks] : touched) {  // smoothing that failed may have come to some of the surfaces

@@ -49,7 +49,7 @@ EspResult espSetField(EspContext* context, EspSurface surface, const char* name,
         ContextPatterns& patterns = context->patterns;
         const std::pair<uint32_t, std::string> key{surface.id, name};
         if (!def) {
-            if (patterns.asked.erase(key) > 0) ++patterns.askedNumber;
+            if (patterns.asked.erase(key) > 0) context->nodes.fields.change();
             return ESP_OK;
         }
         if (EspResult bad = checkField(context, *def)) return bad;
@@ -57,7 +57,7 @@ EspResult espSetField(EspContext* context, EspSurface surface, const char* name,
         asked.elements.assign(def->elements, def->elements + def->elementCount);
         std::memcpy(asked.drift, def->drift, sizeof asked.drift);
         asked.lean = def->lean;
-        asked.number = ++patterns.askedNumber;
+        asked.number = context->nodes.fields.change();
         patterns.asked[key] = std::move(asked);
         return ESP_OK;
     });

@@ -152,7 +152,7 @@ EspResult espPruneBranch(EspContext* context, uint64_t branch, int pruned) {
         } else {
             keys.insert(at, branch);
         }
-        ++context->revision;
+        context->nodes.seeds.change();
         return ESP_OK;
     });
 }

@@ -30,7 +30,7 @@ namespace {
 constexpr size_t kMaxFootprintBytes = 512u << 20;
 constexpr size_t kMaxWarnings = 200;  // told one by one
 
-void tell(EspContext& context, const std::vector<Diagnostic>& all) {
+void tell(const EspContext& context, const std::vector<Diagnostic>& all) {
     for (size_t i = 0; i < all.size() && i < kMaxWarnings; ++i) {
         Diagnostic d = all[i];
         d.warning = true;
@@ -65,7 +65,7 @@ GroundLook groundUnder(const RoofStructure& structure, const EspTownDef& def) {
     return ground;
 }
 
-Result<LoadedTown> prepare(EspContext& context, const EspTownDef& def) {
+Result<LoadedTown> prepare(const EspContext& context, const EspTownDef& def) {
     LoadedTown town;
     town.name = def.name ? def.name : "town";
     Result<Town> read = parseFootprints(std::string(def.text, def.length), town.name);
@@ -88,7 +88,7 @@ Result<LoadedTown> prepare(EspContext& context, const EspTownDef& def) {
         if (d.file.empty()) d.file = town.name;
     tell(context, diagnostics);
     if (town.structure.houses.empty()) return Failure(town.name, "holds no building whose roof could be made");
-    town.number = town.tablesNumber = ++context.towns;
+    town.number = town.tablesMade = nextVersion();
     town.layers = PlanLayers(town.structure);
     town.ground = groundUnder(town.structure, def);
     return town;
@@ -99,8 +99,7 @@ EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
     LoadedTown& town = *context.town;
     if (!town.changed.empty() && mostlyUnused(town.tables)) {
         town.tables = withoutUnused(town.tables);
-        town.tablesNumber = ++context.towns;
-        town.stale = true;
+        town.tablesMade = town.whole = context.nodes.town.change();
     }
     if (context.roofBounds.empty()) {
         Result<std::vector<RoofMesh>> bounds = context.renderer->loadRoofMeshes(TerminalData(*context.roofMeshes));
@@ -114,14 +113,14 @@ EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
     }
     RoofInputs inputs;
     inputs.town = &town.tables;
-    inputs.townRevision = town.tablesNumber;
+    inputs.townRevision = town.tablesMade;
     inputs.grammar = &grammar.map;
-    inputs.grammarRevision = grammar.revision;
+    inputs.grammarRevision = grammar.version;
     inputs.meshes = context.roofBounds;
     bindTownLayers(context, inputs);
     std::vector<ContextInfo> contexts = grammar.map.contexts();
     Status grown = Done{};
-    if (town.stale || town.grammarRevision != grammar.revision)
+    if (town.growsWhole(grammar))
         grown = context.roofs->grow(inputs);
     else if (!town.changed.empty())
         grown = context.roofs->growHouses(inputs, town.changed);
@@ -132,10 +131,8 @@ EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
         return fail(&context, ESP_INVALID_CONTENT, grammar.name + ": " + grown.failure().diagnostics.front().message);
     const RoofView view = context.roofs->view();
     if (view.revision != town.view.revision) context.dropTriangles();
-    town.stale = false;
-    town.changed.clear();
-    town.painted.clear();
-    town.grammarRevision = grammar.revision;
+    context.nodes.roofs.made();
+    town.stands(context.nodes.roofs.version());
     town.view = view;
     town.contexts = std::move(contexts);
     return ESP_OK;
@@ -152,10 +149,11 @@ EspResult updateTown(EspContext& context) {
         town.view = {};
         return ESP_OK;
     }
-    const FailedInputs::Revision inputs = {town.revision, grammar->revision};
-    if (!context.device->lost() && town.failed.known(inputs)) return town.failed.tell(context.error);
+    const graph::Node& roofs = context.nodes.roofs;
+    if (!roofs.due()) return ESP_OK;
+    if (!context.device->lost() && town.failed.known(roofs.version())) return town.failed.tell(context.error);
     const EspResult grown = grownOr(context, [&] { return growTown(context, *grammar); });
-    return grown == ESP_OK ? town.failed.forget() : town.failed.note(inputs, grown, context.error);
+    return grown == ESP_OK ? town.failed.forget() : town.failed.note(roofs.version(), grown, context.error);
 }
 
 }  // namespace espalier
@@ -182,8 +180,7 @@ EspResult espSetTownGrammar(EspContext* context, EspGrammar id) {
             return fail(context, ESP_INVALID_ARGUMENT,
                         grammar->name + ": makes no roofs; a town needs a grammar with Extrude, Join, Split ...");
         context->town->grammar = id.id;
-        context->town->stale = true;
-        context->town->revision += 1;
+        context->town->whole = context->nodes.town.change();
         return ESP_OK;
     });
 }
@@ -210,6 +207,7 @@ EspResult espLoadTown(EspContext* context, const EspTownDef* def) {
         if (!town) return failContent(context, town.failure());
         town->grammar = def->grammar.id;
         context->town = std::move(*town);
+        context->town->whole = context->nodes.town.change();
         return ESP_OK;
     });
 }

@@ -40,10 +40,10 @@ EspResult setLayer(EspContext& context, const EspLayerDef& def) {
     };
     // First of all, since there may be no memory for it.
     const auto tell = [&] {
-        Undo untold([&] { context.touch(); });
+        Undo untold([&] { context.changeWholly(context.nodes.paint); });
         wholeLayerChanged(context, def.surface.id, def.name);
         untold.done();
-        context.tablesStale = true;
+        context.nodes.layers.change();
     };
     if (def.texels) {
         const PlacedSurface& surface = *context.surfaces.find(def.surface.id);

@@ -78,7 +78,7 @@ EspResult plant(EspContext& context, const EspSeedDef& def, EspSeed* out) {
     const uint32_t id = context.seeds.insert(std::move(seed));
     if (!id) return fail(&context, ESP_OUT_OF_MEMORY, "espPlant: no ids left");
     taking.done();
-    ++context.revision;
+    context.nodes.seeds.change();
     out->id = id;
     return ESP_OK;
 }
@@ -106,7 +106,7 @@ EspResult setNumber(EspContext& context, PlantedSeed& seed, uint32_t number, uin
     context.twins.release(seed.number, seed.twin);
     seed.number = number;
     seed.twin = taken;
-    ++context.revision;
+    context.nodes.seeds.change();
     return ESP_OK;
 }
 
@@ -115,7 +115,7 @@ EspResult setParam(EspContext& context, PlantedSeed& seed, const char* name, con
     if (count == 0) {
         if (known == seed.params.end()) return ESP_OK;
         seed.params.erase(known);
-        ++context.revision;
+        context.nodes.seeds.change();
         return ESP_OK;
     }
     const RuleMap& map = context.grammars.find(seed.grammar)->map;
@@ -140,7 +140,7 @@ EspResult setParam(EspContext& context, PlantedSeed& seed, const char* name, con
         // In order of names, so that the same settings make the same list.
         seed.params.insert(std::ranges::lower_bound(seed.params, param.name, {}, &SeedParam::name), param);
     }
-    ++context.revision;
+    context.nodes.seeds.change();
     return ESP_OK;
 }
 
@@ -202,7 +202,7 @@ EspResult espRemoveSeed(EspContext* context, EspSeed seed) {
     return guarded(context, [&] {
         if (!find(context, seed)) return fail(context, ESP_INVALID_ARGUMENT, "espRemoveSeed: no such seed");
         removeSeed(*context, seed.id);
-        ++context->revision;
+        context->nodes.seeds.change();
         return ESP_OK;
     });
 }
@@ -214,7 +214,7 @@ EspResult espRemoveAllSeeds(EspContext* context) {
         context->seeds.forEach([&](uint32_t id, const PlantedSeed&) { all.push_back(id); });
         for (uint32_t id : all) context->seeds.erase(id);
         context->twins = {};
-        ++context->revision;
+        context->nodes.seeds.change();
         return ESP_OK;
     });
 }
@@ -259,7 +259,7 @@ EspResult espMoveSeed(EspContext* context, EspSeed id, const float position[3], 
             return fail(context, ESP_INVALID_ARGUMENT, "espMoveSeed: no such seed, or a place that isn't one");
         if (!place(*context, vec(position), vec(direction), *seed))
             return fail(context, ESP_INVALID_ARGUMENT, std::string("espMoveSeed: ") + whyNoneNear(*context));
-        ++context->revision;
+        context->nodes.seeds.change();
         return ESP_OK;
     });
 }

@@ -98,12 +98,6 @@ void prepareSearch(PlacedSurface& surface) {
     surface.tree = MeshTree(positions, data.indices);
 }
 
-// What plants have to do with it shows when contacts have been found anew.
-void surfacesChanged(EspContext& context) {
-    context.tablesStale = context.contactsStale = true;
-    ++context.revision;
-}
-
 EspResult load(EspContext& context, const char* path, const EspTransform& place, bool groundOnly, EspSurface* out) {
     const std::string call = groundOnly ? "espLoadGround: " : "espLoadSurface: ";
     const glm::mat4 toWorld = matrixOf(place);
@@ -143,7 +137,7 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     dropUploaded(placed.data);
     prepareSearch(placed);
     placing.done();
-    surfacesChanged(context);
+    context.nodes.surfaces.change();
     out->id = id;
     return ESP_OK;
 }
@@ -180,7 +174,7 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
     });
     context.plants.reset();  // which were read where they stood
     context.surfaceChanges = std::move(changes);
-    surfacesChanged(context);
+    context.nodes.surfaces.change();
     return ESP_OK;
 }
 
@@ -204,11 +198,11 @@ std::vector<glm::mat4> EspContext::stands() const {
 }
 
 Status EspContext::refreshTables() {
-    if (contactsStale) {
+    if (nodes.contacts.due()) {
         if (Status found = refreshContacts(*this); !found) return found;
-        contactsStale = false;
+        nodes.contacts.made();
     }
-    if (tablesStale) {
+    if (nodes.tables.due()) {
         const std::vector<glm::mat4> places = stands();
         std::vector<SurfaceRef> refs(places.size());
         for (size_t i = 0; i < places.size(); ++i) placeSurface(refs[i], places[i]);
@@ -232,18 +226,18 @@ Status EspContext::refreshTables() {
         surfaceTable = std::move(*newSurfaces);
         ++tablesRevision;
         layerTable = std::move(*newLayers);
-        tablesStale = false;
+        nodes.tables.made();
     }
     Status status = Done{};
     grammars.forEach([&](uint32_t, LoadedGrammar& grammar) {
-        if (!grammar.stale || !status) return;
+        if (grammar.uploaded == grammar.version || !status) return;
         Result<Buffer> words = makeBuffer(*device, "rule map", std::as_bytes(grammar.map.words()));
         if (!words) {
             status = words.failure();
             return;
         }
         grammar.words = std::move(*words);
-        grammar.stale = false;
+        grammar.uploaded = grammar.version;
     });
     return status;
 }
@@ -285,7 +279,7 @@ EspResult espDestroySurface(EspContext* context, EspSurface surface) {
         context->renderer->removeSurface(placed->instance);
         context->surfaces.erase(surface.id);
         context->surfaceChanges = std::move(changes);
-        surfacesChanged(*context);
+        context->nodes.surfaces.change();
         return ESP_OK;
     });
 }

@@ -104,13 +104,13 @@ GrowthLimits growthLimits(const EspGrowDef& def) {
 
 // All is as it has grown.
 void noteGrown(EspContext& context, std::vector<uint32_t> grammars, std::vector<uint32_t> seeds) {
-    context.grownRevision = context.revision;
     context.grownGrammars = std::move(grammars);
     context.grownSeeds = std::move(seeds);
     context.changes = {.everything = false, .cells = {}, .uses = {}, .grammars = {}};
     context.surfaceChanges.clear();
     noteSurfaces(context);
     context.dropTriangles();
+    context.nodes.plants.made();
 }
 
 EspResult growPlants(EspContext& context) {
@@ -147,12 +147,11 @@ EspResult growPlants(EspContext& context) {
 }
 
 EspResult updatePlants(EspContext& context) {
-    if (context.grownRevision == context.revision) return ESP_OK;
-    if (!context.device->lost() && context.failed.known({context.revision, 0}))
-        return context.failed.tell(context.error);
-    const EspResult grown =
-        grownOr(context, [&] { return growPlants(context); });  // contacts that it finds may raise the revision
-    return grown == ESP_OK ? context.failed.forget() : context.failed.note({context.revision, 0}, grown, context.error);
+    const graph::Node& plants = context.nodes.plants;
+    if (!plants.due()) return ESP_OK;
+    if (!context.device->lost() && context.failed.known(plants.version())) return context.failed.tell(context.error);
+    const EspResult grown = grownOr(context, [&] { return growPlants(context); });
+    return grown == ESP_OK ? context.failed.forget() : context.failed.note(plants.version(), grown, context.error);
 }
 
 }  // namespace
@@ -183,7 +182,7 @@ EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
             now.shadersOnly == def->shadersOnly)
             return ESP_OK;
         context->grow = *def;
-        context->touch();
+        context->changeWholly(context->nodes.limits);
         return ESP_OK;
     });
 }

@@ -14,6 +14,7 @@
 #include "plugin_api/espalier.h"
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/grammar/grammar.hpp"
+#include "runtime/graph/node.hpp"
 #include "runtime/paint/painter.hpp"
 #include "runtime/plugin/plants.hpp"
 #include "runtime/render/ground.hpp"
@@ -71,12 +72,11 @@ struct PaintedLayer {
 struct LoadedGrammar {
     std::string name;
     RuleMap map;
-    std::string warnings;  // of the map, as text
-    Buffer words;          // uploaded from the map when stale
-    bool stale = true;
-    uint64_t revision = 0;          // of rules and parameters, unlike any other grammar's
-    std::vector<uint32_t> layerOf;  // scene layer of each of the map's contexts
-    uint64_t edition = 0;           // the context's revision when text or parameters last changed
+    std::string warnings;             // of the map, as text
+    Version version = nextVersion();  // of rules and parameters
+    Buffer words;                     // of the map
+    Version uploaded = 0;             // what they are of
+    std::vector<uint32_t> layerOf;    // scene layer of each of the map's contexts
     double compileMs = 0;
 };
 
@@ -106,7 +106,7 @@ struct PlantedSeed {
 // A grammar as seeds with values of their own grow by it.
 struct GrammarVariant {
     uint32_t grammar = 0;  // id
-    uint64_t edition = 0;  // of the grammar that it was made from
+    Version madeFrom = 0;  // of the grammar
     std::vector<SeedParam> params;
     std::vector<uint32_t> layerOf;
     RuleMap map;
@@ -166,10 +166,8 @@ struct PaintStroke {
 // most 1,024.
 class FailedInputs {
   public:
-    using Revision = std::array<uint64_t, 2>;
-
     // Whether these inputs are known to fail and aren't to be tried by this call.
-    bool known(Revision inputs) {
+    bool known(Version inputs) {
         if (result_ == ESP_OK || inputs != inputs_) return false;
         return !passes() || ++calls_ < wait_;
     }
@@ -177,7 +175,7 @@ class FailedInputs {
         error = why_;
         return result_;
     }
-    EspResult note(Revision inputs, EspResult result, const std::string& why) {
+    EspResult note(Version inputs, EspResult result, const std::string& why) {
         const bool again = passes() && inputs == inputs_;
         wait_ = again ? std::min(2 * wait_, 1024u) : 1;
         calls_ = 0;
@@ -191,7 +189,7 @@ class FailedInputs {
     bool passes() const { return result_ == ESP_OUT_OF_MEMORY || result_ == ESP_DRIVER_FAILED; }
 
     EspResult result_ = ESP_OK;
-    Revision inputs_{};
+    Version inputs_ = 0;
     uint32_t wait_ = 1, calls_ = 0;
     std::string why_;
 };
@@ -212,21 +210,29 @@ struct LoadedTown {
     std::map<uint32_t, ChangedHouse> changedHouses;  // [house]
     RoofStructure structure;
     RoofTables tables;
+    Version tablesMade = 0;         // unlike any other town's; houses that change leave it
     uint32_t grammar = 0;           // id; 0: none yet
-    bool stale = true;              // all of it has to grow
-    std::vector<uint32_t> changed;  // houses that have to, if not all
-    uint64_t grammarRevision = 0;   // what the roofs were grown from
-    uint64_t revision = 1;          // of houses, layers and the choice of a grammar
+    Version grown = 0;              // as of the roofs that stand
+    Version whole = 0;              // of the last change that concerned all houses
+    std::vector<uint32_t> changed;  // houses that have to grow, if not all
     FailedInputs failed;
     GroundLook ground;
-    uint64_t number = 0;        // unlike any other town's of the context, from 1
-    uint64_t tablesNumber = 0;  // of `tables`, likewise
+    Version number = 0;  // unlike any other town's
     PlanLayers layers;
     std::vector<std::pair<std::string, PlanRect>> painted;  // layers that changed since the roofs last grew
     std::vector<float> means;                               // [house * kRoofLayers + layer of the grammar]
     RoofView view;                                          // of what stands
     std::vector<ContextInfo> contexts;                      // that it was grown by
     double structureMs = 0;
+
+    // Whether more than `changed` and `painted` tell has changed since the roofs grew, by this grammar.
+    bool growsWhole(const LoadedGrammar& by) const { return std::max(whole, by.version) > grown; }
+    // The roofs stand as of a version.
+    void stands(Version version) {
+        grown = version;
+        changed.clear();
+        painted.clear();
+    }
 };
 
 // A layer as kernels know it: its number is the place in this list. Two grammars that name the same layer, but

@@ -14,6 +14,7 @@
 #include "runtime/core/result.hpp"
 #include "runtime/expand/growth.hpp"
 #include "runtime/gpu/device.hpp"
+#include "runtime/graph/node.hpp"
 #include "runtime/plugin/contents.hpp"
 #include "runtime/plugin/id_table.hpp"
 #include "runtime/plugin/patterns.hpp"
@@ -24,6 +25,25 @@ namespace espalier {
 
 // A place is the number of an instance. Records have 16 bits for it; fewer here leave an id more generations.
 using SurfaceTable = IdTable<PlacedSurface, 12>;
+
+// What of a context is made from what. An edit calls change() of what it changes; what is made from that is due then.
+struct ContextNodes {
+    graph::Node surfaces;   // which there are, and where they stand
+    graph::Node layers;     // which there are over surfaces, and by which numbers kernels know them
+    graph::Node paint;      // on layers that grammars of plants read
+    graph::Node rules;      // of plants and patterns, with their parameters
+    graph::Node seeds;      // with what is pruned and what stands frozen
+    graph::Node limits;     // EspContext::grow
+    graph::Node fields;     // that patterns are laid along
+    graph::Node town;       // its houses, what is painted over it, which grammar it grows by
+    graph::Node roofRules;  // with their parameters
+
+    graph::Node contacts{&surfaces};         // between surfaces
+    graph::Node tables{&contacts, &layers};  // by which kernels read surfaces and layers
+    graph::Node plants{&contacts, &paint, &rules, &seeds, &limits};
+    graph::Node patterns{&tables, &paint, &rules, &seeds, &limits, &fields};
+    graph::Node roofs{&town, &roofRules};
+};
 
 }  // namespace espalier
 
@@ -45,7 +65,6 @@ struct EspContext {
     std::filesystem::path roofMeshFile;
     std::optional<espalier::LoadedTown> town;
     espalier::ContextPatterns patterns;
-    uint64_t grammarRevisions = 0, towns = 0;
     espalier::ContextNumber number;
     espalier::SurfaceTable surfaces{number.value()};
     espalier::IdTable<espalier::LoadedGrammar, 10> grammars{number.value()};
@@ -62,20 +81,17 @@ struct EspContext {
 
     EspGrowDef grow;
     std::unique_ptr<espalier::GrowthWatch> watch;  // null: nobody does
-    // Of the inputs, since the last growth. Edits go through touch(), or note here what they changed and raise
-    // `revision` themselves (for seeds that is all there is to do).
+    espalier::ContextNodes nodes;
+    // What of the inputs of plants changed since they last grew, as far as growth doesn't find out by itself. Who
+    // changes one of these nodes notes it here, or calls changeWholly().
     espalier::GrowthChanges changes;
     std::vector<uint32_t> grownGrammars;  // ids, in the order of growth's indices
-    uint64_t revision = 1;                // of everything that growth depends on
-    uint64_t grownRevision = 0;           // what the growth was made from
-    espalier::FailedInputs failed;
-    bool contactsStale = false;  // surfaces came, went or moved
+    espalier::FailedInputs failed;        // of plants
     espalier::SurfaceChanges surfaceChanges;
     std::vector<espalier::SurfacePair> pairs;
     std::set<uint32_t> touched;     // surfaces of pairs that changed, until refreshContacts has told them
     uint32_t contactCount = 0;      // crossings between surfaces
     double contactMs = 0;           // of finding them the last time, CPU
-    bool tablesStale = true;        // the two below don't describe surfaces and layers any more
     espalier::Buffer surfaceTable;  // SurfaceRef[stands().size()]
     uint64_t tablesRevision = 0;    // grows when they are made anew
     espalier::Buffer layerTable;    // LayerRef[stands().size() * kMaxLayers]
@@ -94,10 +110,14 @@ struct EspContext {
     uint32_t pictureWidth = 0, pictureHeight = 0;
     std::vector<std::byte> vertices, indices;  // of the last espMaterialise, until something grows
 
-    // An input of growth changed in a way that only a full growth answers.
-    void touch() {
+    // An input of plants changed in a way that only a full growth answers.
+    void changeWholly(espalier::graph::Node& input) noexcept {
         changes.everything = true;
-        ++revision;
+        input.change();
+    }
+    // A grammar has other rules or parameters.
+    void changeRules(espalier::LoadedGrammar& grammar) noexcept {
+        grammar.version = (grammar.map.roofs() ? nodes.roofRules : nodes.rules).change();
     }
     // The arrays of espMaterialise.
     void dropTriangles() { vertices = {}, indices = {}; }
@@ -106,6 +126,6 @@ struct EspContext {
     uint32_t surfaceSlots() const;
     // [instance]: where what has grown on a surface stands in the world, also if that has been destroyed since.
     std::vector<glm::mat4> stands() const;
-    // Uploads what is stale of tables and grammars.
+    // Makes the tables if they are due, and uploads grammars that have changed.
     espalier::Status refreshTables();
 };

@@ -42,7 +42,7 @@ Status fill(EspContext& context, GrammarVariant& variant, uint32_t place) {
         context.changes.grammars.push_back(index);
     variant.map = std::move(map);
     variant.words = std::move(*words);
-    variant.edition = grammar.edition;
+    variant.madeFrom = grammar.version;
     variant.layerOf = grammar.layerOf;
     variant.used = true;
     return Done{};
@@ -87,7 +87,7 @@ Status refreshVariants(EspContext& context) {
     });
     for (uint32_t i = 0; i < variants.size() && status; ++i) {
         variants[i].used = wanted[i];
-        if (wanted[i] && variants[i].edition != context.grammars.find(variants[i].grammar)->edition)
+        if (wanted[i] && variants[i].madeFrom != context.grammars.find(variants[i].grammar)->version)
             status = fill(context, variants[i], i);
     }
     // Growth names so many grammars at most. Who has more places than that has had very many: a shorter list makes all

@@ -34,7 +34,8 @@ PieceMeshes collidersOf(const TerminalData& data) {
             const TerminalLod& lod = colliderOf(*variant);
             for (uint32_t i = 0; i < lod.vertexCount; ++i)
                 positions.push_back(data.vertices[lod.firstVertex + i].position);
-            indices.assign(data.indices.begin() + lod.firstIndex, data.indices.begin() + lod.firstIndex + lod.indexCount);
+            indices.assign(data.indices.begin() + lod.firstIndex,
+                           data.indices.begin() + lod.firstIndex + lod.indexCount);
         }
         meshes.add(positions, indices);
     }
@@ -70,8 +71,8 @@ class Gathering {
             note(uint64_t(std::bit_cast<uint32_t>(seed.walk.direction.y)) << 32 |
                  std::bit_cast<uint32_t>(seed.walk.direction.z));
         });
-        note(context_.tablesRevision);
-        note(context_.patterns.askedNumber);
+        note(context_.nodes.tables.version());
+        note(context_.nodes.fields.version());
         return std::move(out_);
     }
 
@@ -82,17 +83,16 @@ class Gathering {
         const uint64_t key = uint64_t(planted.grammar) << 32 | planted.variant;
         if (const auto known = known_.find(key); known != known_.end()) return known->second;
         const LoadedGrammar& grammar = *context_.grammars.find(planted.grammar);
-        const GrammarVariant* variant =
-            planted.variant == kNoIndex ? nullptr : &context_.variants[planted.variant];
+        const GrammarVariant* variant = planted.variant == kNoIndex ? nullptr : &context_.variants[planted.variant];
         const RuleMap& map = variant ? variant->map : grammar.map;
         RuleMapRef ref = map.refAt((variant ? variant->words : grammar.words).address());
         const std::vector<uint32_t>& layerOf = variant ? variant->layerOf : grammar.layerOf;
         for (size_t i = 0; i < layerOf.size() && i < kMaxLayers; ++i) ref.layerOf[i] = layerOf[i];
-        note(grammar.revision);
+        note(grammar.version);
         for (const ParamInfo& param : map.params())
             for (float value : param.value) note(std::bit_cast<uint32_t>(value));
         // Which texels it reads isn't known: any stroke may concern it.
-        if (!map.contexts().empty()) note(context_.revision);
+        if (!map.contexts().empty()) note(context_.nodes.paint.version());
         out_.maps.push_back(ref);
         out_.rules.push_back(&map);
         return known_[key] = uint32_t(out_.maps.size()) - 1;
@@ -200,7 +200,8 @@ EspResult derive(EspContext& context, const PatternPlanting& planting) {
         grown = std::move(*made);
     }
     if (patterns.data) {
-        if (Status loaded = context.renderer->loadPieces(*patterns.data); !loaded) return failGpu(&context, loaded.failure());
+        if (Status loaded = context.renderer->loadPieces(*patterns.data); !loaded)
+            return failGpu(&context, loaded.failure());
         patterns.data.reset();
     }
     const PatternStats stats = grown.stats;
@@ -234,6 +235,8 @@ bool beginsPattern(const EspContext& context, const PlantedSeed& seed) {
 
 EspResult updatePatterns(EspContext& context) {
     ContextPatterns& patterns = context.patterns;
+    graph::Node& node = context.nodes.patterns;
+    if (!node.due()) return ESP_OK;
     bool any = patterns.grownFrom != 0;
     context.grammars.forEach([&](uint32_t, const LoadedGrammar& grammar) { any = any || grammar.map.patterns(); });
     if (!any) return ESP_OK;
@@ -242,12 +245,16 @@ EspResult updatePatterns(EspContext& context) {
     forgetGone(context);
     const PatternPlanting planting = Gathering(context).run();
     const uint64_t wanted = planting.seeds.empty() ? 0 : planting.signature;
-    if (wanted == patterns.grownFrom) return ESP_OK;
-    if (!context.device->lost() && patterns.failed.known({planting.signature, 0}))
+    if (wanted == patterns.grownFrom) {  // what changed is of plants alone
+        node.made();
+        return ESP_OK;
+    }
+    if (!context.device->lost() && patterns.failed.known(planting.signature))
         return patterns.failed.tell(context.error);
     const EspResult grown = grownOr(context, [&] { return derive(context, planting); });
-    return grown == ESP_OK ? patterns.failed.forget()
-                           : patterns.failed.note({planting.signature, 0}, grown, context.error);
+    if (grown != ESP_OK) return patterns.failed.note(planting.signature, grown, context.error);
+    node.made();
+    return patterns.failed.forget();
 }
 
 }  // namespace espalier

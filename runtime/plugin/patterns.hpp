@@ -1,6 +1,7 @@
 #pragma once
 
-// Patterns of a context: the pieces there are, fields on surfaces, and what has been derived (patterns.cpp, api_patterns.cpp).
+// Patterns of a context: the pieces there are, fields on surfaces, and what has been derived (patterns.cpp,
+// api_patterns.cpp).
 
 #include <filesystem>
 #include <map>
@@ -23,12 +24,12 @@ struct AskedField {
     std::vector<EspFieldElement> elements;
     float drift[3] = {0, -1, 0};
     float lean = 1;
-    uint64_t number = 0;  // unlike any other that was asked for
+    Version number = 0;  // unlike any other that was asked for; 0: the default
 };
 
 // A field as kernels read it.
 struct MadeField {
-    uint64_t asked = 0;  // AskedField::number; 0: the default
+    Version asked = 0;  // AskedField::number
     uint32_t symmetry = 0;
     bool curvature = false;
     glm::mat4 toObject{1};  // by which elements and drift were taken into object space
@@ -46,11 +47,10 @@ struct ContextPatterns {
     std::vector<TerminalMesh> names;
     std::optional<TerminalData> data;  // until the renderer has it
     PieceMeshes meshes;
-    std::unique_ptr<PatternGrowth> growth;  // made when the first pattern grows
+    std::unique_ptr<PatternGrowth> growth;                         // made when the first pattern grows
     std::map<std::pair<uint32_t, std::string>, AskedField> asked;  // by surface's id and name
     std::map<uint32_t, FieldGround> ground;                        // by surface's id; made when a pattern first asks
-    uint64_t askedNumber = 0;                                      // of all that has been asked for
-    uint64_t grownFrom = 0;                                        // what the pattern was derived from; 0: nothing stands
+    uint64_t grownFrom = 0;  // what the pattern was derived from; 0: nothing stands
     uint32_t seeds = 0;
     PatternStats stats;
     FailedInputs failed;

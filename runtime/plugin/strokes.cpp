@@ -13,12 +13,12 @@ namespace {
 
 // Grammars that want another value where nothing is painted read one that is painted instead, or their own again.
 void tellFill(EspContext& context, uint32_t surface, const std::string& name, float fill) {
-    context.tablesStale = true;
+    context.nodes.layers.change();
     const PlacedSurface& placed = *context.surfaces.find(surface);
     for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
         if (context.sceneLayers[layer].name == name && context.sceneLayers[layer].fill != fill) {
             context.changes.markLayer(placed.instance, layer, placed.data.levels.front().size);
-            ++context.revision;
+            context.nodes.paint.change();
         }
 }
 
@@ -35,7 +35,7 @@ EspResult makeLayer(EspContext& context, uint32_t surface, const std::string& na
     context.layers.push_back({name, surface, size, std::move(*texels), number, 0});
     Undo untold([&] {
         context.layers.pop_back();
-        context.touch();
+        context.changeWholly(context.nodes.paint);
     });
     tellFill(context, surface, name, fill);
     untold.done();
@@ -78,7 +78,7 @@ std::vector<PaintJob> jobsOf(EspContext& context, PaintStroke& stroke) {
 void dropMade(EspContext& context, const PaintStroke& stroke) noexcept {
     for (const PaintStroke::Part& part : stroke.parts) {
         const auto made = [&](const PaintedLayer& layer) { return layer.number == part.layer && layer.strokes == 0; };
-        if (part.undone && part.made && std::erase_if(context.layers, made) > 0) context.tablesStale = true;
+        if (part.undone && part.made && std::erase_if(context.layers, made) > 0) context.nodes.layers.change();
     }
     dropTownMade(context, stroke);
 }
@@ -101,7 +101,7 @@ void turn(EspContext& context, PaintStroke& stroke) noexcept {
 
 // Takes back, as far as there is memory for it, what a call has painted that can't be kept.
 void takeBack(EspContext& context, PaintStroke& stroke) noexcept {
-    context.touch();
+    context.changeWholly(context.nodes.paint);
     swapTown(context, stroke);
     try {
         (void)context.painter->swap(jobsOf(context, stroke));

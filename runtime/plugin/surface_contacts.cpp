@@ -141,16 +141,16 @@ Status refreshContacts(EspContext& context) {
         boxes.push_back(box.grown(1e-3 * glm::length(box.high - box.low)));
     });
     // Nothing changes for surfaces of which no pair came, went or is found anew.
-    const auto touch = [&](const SurfacePair& pair) { context.touched.insert({pair.a.id, pair.b.id}); };
+    const auto note = [&](const SurfacePair& pair) { context.touched.insert({pair.a.id, pair.b.id}); };
     std::vector<SurfacePair> pairs = pairsOf(stands, boxes);
     for (const SurfacePair& pair : context.pairs)
-        if (!sameIn(pairs, pair)) touch(pair);
+        if (!sameIn(pairs, pair)) note(pair);
     for (SurfacePair& pair : pairs) {
         if (const SurfacePair* known = sameIn(context.pairs, pair)) {
             pair.found = known->found, pair.hiddenOfA = known->hiddenOfA, pair.hiddenOfB = known->hiddenOfB;
             continue;
         }
-        touch(pair);
+        note(pair);
         if (Status s = find(context, pair); !s) return s;
     }
     context.pairs = std::move(pairs);
@@ -181,7 +181,6 @@ Status refreshContacts(EspContext& context) {
         if (!status) return;
         context.surfaceChanges[surface.instance] = SurfaceChange::ground;
         surface.contacts = std::move(wanted), surface.buried = std::move(buried);
-        context.tablesStale = true;
     });
     if (status) context.touched.clear();
     context.contactMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

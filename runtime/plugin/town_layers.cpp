@@ -29,7 +29,7 @@ void bindTownLayers(EspContext& context, RoofInputs& inputs) {
     const LoadedGrammar& grammar = *townGrammar(context);
     const auto& houses = town.structure.houses;
     const size_t count = std::min<size_t>(grammar.map.contexts().size(), kRoofLayers);
-    const bool anew = town.stale || town.grammarRevision != grammar.revision;
+    const bool anew = town.growsWhole(grammar);
     inputs.site = town.layers.site();
     town.means.resize(houses.size() * kRoofLayers);
     std::vector<bool> edited(houses.size());  // other outlines have other means

@@ -86,7 +86,7 @@ EspResult setLayer(EspContext& context, const std::string& name, std::span<const
     });
     PlanLayer& layer = reach(context, stroke);
     changed.add(town.layers.replace(layer, values, stroke.plan.record));
-    town.revision += 1;
+    context.nodes.town.change();
     closeTown(context, stroke);
     const uint32_t id = out ? context.strokes.insert({}) : 0;
     if (out && !id) return fail(&context, ESP_OUT_OF_MEMORY, "espSetTownLayer: no ids left");
@@ -109,13 +109,12 @@ bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabReco
     if (stroke.erases && !espLayerFilled(&context, stroke.layer.c_str(), &filled))
         brush.target = fillOverTown(context, stroke.layer);
     Undo untold([&] {  // some of the dabs may be painted
-        town.stale = true;
-        town.revision += 1;
+        town.whole = context.nodes.town.change();
     });
     const PlanRect rect = town.layers.dabs(layer, brush, stroke.smooths, dabs, stroke.plan.record);
     if (!rect.empty()) {
         notesOf(town, stroke.layer).add(rect);
-        town.revision += 1;
+        context.nodes.town.change();
     }
     untold.done();
     return true;
@@ -126,7 +125,7 @@ bool fillTown(EspContext& context, PaintStroke& stroke, float value) {
     LoadedTown& town = *context.town;
     PlanLayer& layer = reach(context, stroke);
     notesOf(town, stroke.layer).add(town.layers.fill(layer, value, stroke.plan.record));
-    town.revision += 1;
+    context.nodes.town.change();
     return true;
 }
 
@@ -148,7 +147,7 @@ void swapTown(EspContext& context, PaintStroke& stroke) {
     PlanRect& changed = notesOf(town, stroke.layer);  // there already where a call is taken back
     changed.add(town.layers.swap(*layer, stroke.plan.record));
     if (other) changed.add(town.layers.whole());
-    town.revision += 1;
+    context.nodes.town.change();
 }
 
 void makeTownAgain(EspContext& context, const PaintStroke& stroke) {
