@@ -1,6 +1,7 @@
 // Enters: growth's records. Leaves: an instance in the world for each span and leaf, and the order of items by cells of
-// space, each cell's by their order of going when they are thinned out. Runs when growth has changed; after edits, on
-// what they concerned: nodes that were written and what hangs on them, and the cells where something was or is of that.
+// space, each cell's by their order of going when they are thinned out. Runs when growth or where it stands has
+// changed; after edits and moves, on what they concerned: nodes that were written or moved and what hangs on them, and
+// the cells where something was or is of that.
 #include "runtime/emit/bound_growth.hpp"
 
 #include <algorithm>
@@ -15,6 +16,18 @@ namespace {
 
 // At most so many leaves; beyond, they are counted as overflow and left out. Nodes are limited by growth.
 constexpr uint32_t kMostLeaves = 6'000'000;
+
+// Widens a box to whole steps, of an eighth of its longest side at most: what moves about in a scene seldom changes the
+// grid, and yet the grid follows from the scene alone. Steps end beside round numbers, at which scenes like to end.
+void widen(glm::vec3& low, glm::vec3& high) {
+    constexpr float kBeside = 0.37f;
+    const glm::vec3 extent = high - low;
+    const float longest = std::max({extent.x, extent.y, extent.z});
+    if (!(longest > 0)) return;
+    const float step = std::exp2(std::ceil(std::log2(longest / 16)));
+    low = (glm::floor(low / step - kBeside) + kBeside) * step;
+    high = (glm::ceil(high / step - kBeside) + kBeside) * step;
+}
 
 // The cubes that fill the box, at most kMaxCells of them.
 EmitGrid gridOver(glm::vec3 low, glm::vec3 high) {
@@ -90,9 +103,10 @@ Result<BoundGrowth::Held> BoundGrowth::makeHeld(const GrowthView& growth, uint32
     return held;
 }
 
-// For the items of `held`, with room for cells that outgrow theirs.
+// For the items of `held`, each cell with roomFor() its own; and as much again, for all of them may move to other
+// cells.
 Status BoundGrowth::makeOrder(Buffer& order, const Held& held) {
-    const uint64_t numbers = held.numbers() + held.numbers() / 2 + 32 * kAllCells;
+    const uint64_t numbers = 2 * (held.numbers() + held.numbers() / 4 + 16 * kAllCells);
     return makeAtLeast(*device_, order, "emit order", numbers * 4);
 }
 
@@ -147,33 +161,55 @@ bool BoundGrowth::crowded(const EmitState& counted) const {
     return counted.crowded != 0 && counted.crowded == uint32_t(wholeBindings_);
 }
 
-// Whether what is bound is what regrowths, or the gaps' closing before them, began with.
+BoundGrowth::Moved BoundGrowth::movedSince(const EmitInputs& inputs) const {
+    constexpr float kMost = 0.4f;  // of the nodes: from here on it costs less to bind all
+    const std::span<const Version> placed = inputs.placed;
+    Moved moved;
+    for (uint32_t i = 0; i < std::min(placed.size(), placed_.size()); ++i) {
+        // Nothing was bound where no surface stood, and nothing is to be where none does.
+        if (placed[i] == placed_[i] || placed[i] == 0 || placed_[i] == 0) continue;
+        moved.whole = moved.whole || i / 32 >= kMovedWords;
+        if (moved.whole) return moved;
+        moved.bits[i / 32] |= 1u << i % 32;
+        moved.words = i / 32 + 1;
+    }
+    if (moved.words > 0 && inputs.native && sharesMemory(*device_, cells_))
+        moved.whole = movedShare(inputs.growth.nodes, inputs.growth.nodeCount, moved.bits) > kMost;
+    return moved;
+}
+
+// Whether what is bound is this growth, or what regrowths, or the gaps' closing before them, began with.
 bool BoundGrowth::staysBound(const Source& wanted, const GrowthView& growth) const {
     const Source& s = source_;
+    if (s.nodes == 0 || s.low != wanted.low || s.high != wanted.high) return false;
+    if (s == wanted) return true;
     const GrowthMove& moved = growth.moved;
     const bool added = growth.renewed <= s.number && s.number <= growth.number && s.nodeCount <= wanted.nodeCount &&
                        s.leafCount <= wanted.leafCount;
     const bool movedThen = moved.nodes && s.number + 1 == growth.renewed && s.nodeCount == moved.nodesBefore &&
                            s.leafCount == moved.leavesBefore;
-    return s.nodes != 0 && s.surfaces == wanted.surfaces && s.surfacesRevision == wanted.surfacesRevision &&
-           s.low == wanted.low && s.high == wanted.high && growth.touched != nullptr && (added || movedThen);
+    return growth.touched != nullptr && (added || movedThen);
 }
 
 Status BoundGrowth::bind(Commands& commands, const EmitInputs& inputs, const TileWatch& watch, EmitState& counted) {
     const GrowthView& growth = inputs.growth;
     const uint32_t nodes = growth.nodeCount, leaves = std::min(growth.leafCount, kMostLeaves);
-    const Source wanted{uint64_t(growth.nodes.v),
-                        uint64_t(growth.leaves.v),
-                        uint64_t(inputs.surfaces.v),
-                        inputs.surfacesRevision,
-                        growth.revision,
-                        nodes,
-                        leaves,
-                        growth.number,
-                        inputs.low,
-                        inputs.high};
-    if (wanted == source_ && !crowded(counted)) return Done{};
-    const bool partly = staysBound(wanted, growth) && !crowded(counted);
+    Source wanted{uint64_t(growth.nodes.v),
+                  uint64_t(growth.leaves.v),
+                  growth.revision,
+                  nodes,
+                  leaves,
+                  growth.number,
+                  inputs.low,
+                  inputs.high};
+    widen(wanted.low, wanted.high);
+    const Moved moved = movedSince(inputs);
+    const bool same = wanted == source_;
+    if (same && !moved.any() && !crowded(counted)) {
+        placed_.assign(inputs.placed.begin(), inputs.placed.end());
+        return Done{};
+    }
+    const bool partly = staysBound(wanted, growth) && !moved.whole && !crowded(counted);
     Source before = source_;
     forget();
     if (!partly) {
@@ -184,18 +220,21 @@ Status BoundGrowth::bind(Commands& commands, const EmitInputs& inputs, const Til
             if (Status s = makeOrder(made->order, *made); !s) return s;
             hold(std::move(*made));
         }
-    } else if (before.number < growth.renewed || !held_.fits(nodes, leaves) || nearlyCrowded(counted)) {
+    } else if (before.number < growth.renewed || !held_.fits(nodes, leaves) || nearlyCrowded(counted) || moved.any()) {
         if (Status s = carry(commands, inputs, leaves, before); !s) return s;
         counted.ordered = 0;  // until the next count comes back
     }
     if (Status s = reserve(); !s) return s;
-    grid_ = gridOver(inputs.low, inputs.high);
+    grid_ = gridOver(wanted.low, wanted.high);
     overflow_ = growth.leafCount - leaves;
 
     BindInputs given = bindInputs(inputs, wanted);
     if (partly) {
-        given.touched = addressOf<UintBuf>(*growth.touched);
         given.partly = 1;
+        if (!same) given.touched = addressOf<UintBuf>(*growth.touched);
+        given.written = same ? 0 : 1;
+        given.movedWords = moved.words;
+        std::ranges::copy(moved.bits, given.moved);
         given.watched = watch.watched().width > 0 ? 1 : 0;
         given.nodesBefore = before.nodeCount;
         given.leavesBefore = before.leafCount;
@@ -209,6 +248,7 @@ Status BoundGrowth::bind(Commands& commands, const EmitInputs& inputs, const Til
         return s;
     }
     source_ = wanted;
+    placed_.assign(inputs.placed.begin(), inputs.placed.end());
     boundBy_ = native ? 0 : commands.serial();
     usedBy_ = commands.serial();
     return Done{};

@@ -3,6 +3,7 @@
 // Bound growth: every span and leaf as an instance in the world, in a cell of space.
 
 #include <array>
+#include <vector>
 
 #include "runtime/emit/emit_inputs.hpp"
 #include "runtime/emit/terminals.hpp"
@@ -11,15 +12,16 @@
 
 namespace espalier {
 
-// When growth has changed, binds it; after edits only what they concerned. Its buffers grow as growth does. All that it
-// is given are growths of one Growth, by whose numbers it knows what has changed.
+// When growth has changed, or surfaces have moved, binds it; after edits and moves only what they concerned. Its
+// buffers grow as growth does. All that it is given are growths of one Growth, by whose numbers it knows what has
+// changed.
 class BoundGrowth {
   public:
     // `terminals` must outlive it.
     static Result<BoundGrowth> create(Device& device, const Terminals& terminals);
 
-    // When growth has changed, or `counted`, the figures of the last counted view, say that cells had no room for some
-    // of it. What an edit changes is noted in the tiles of `watch`. Timed as "bind".
+    // When growth or where it stands has changed, or `counted`, the figures of the last counted view, say that cells
+    // had no room for some of it. What an edit changes is noted in the tiles of `watch`. Timed as "bind".
     Status bind(Commands& commands, const EmitInputs& inputs, const TileWatch& watch, EmitState& counted);
 
     // Another number when something else is bound, or nothing.
@@ -55,9 +57,9 @@ class BoundGrowth {
   private:
     // What the instances were made from.
     struct Source {
-        uint64_t nodes = 0, leaves = 0, surfaces = 0, surfacesRevision = 0, revision = 0;
+        uint64_t nodes = 0, leaves = 0, revision = 0;
         uint32_t nodeCount = 0, leafCount = 0, number = 0;
-        glm::vec3 low{0}, high{0};
+        glm::vec3 low{0}, high{0};  // of the grid
         bool operator==(const Source&) const = default;
     };
     // What of it has a place for each node and leaf.
@@ -82,6 +84,14 @@ class BoundGrowth {
     Status reserve();
     bool crowded(const EmitState& counted) const;
     bool staysBound(const Source& wanted, const GrowthView& growth) const;
+    // Surfaces that stand elsewhere than when something was bound on them.
+    struct Moved {
+        std::array<uint32_t, kMovedWords> bits{};
+        uint32_t words = 0;  // as BindInputs::movedWords
+        bool whole = false;  // binding all anew is what there is to do, or costs less
+        bool any() const { return words > 0 || whole; }
+    };
+    Moved movedSince(const EmitInputs& inputs) const;
     BindInputs bindInputs(const EmitInputs& inputs, const Source& wanted) const;
     // bound_growth_kernels.cpp
     Status bindByKernels(Commands& commands, const TileWatch& watch, const BindInputs& given);
@@ -108,6 +118,7 @@ class BoundGrowth {
     TexelView noteTexels_;  // of these; after them
     EmitGrid grid_{};
     Source source_;
+    std::vector<Version> placed_;        // [instance], likewise
     uint64_t boundBy_ = 0, usedBy_ = 0;  // the recordings that bound it and that looked at it last
     uint64_t version_ = 1, wholeBindings_ = 0, carries_ = 0;
     uint32_t overflow_ = 0, inputSlot_ = 0;

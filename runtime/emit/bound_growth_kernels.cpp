@@ -35,8 +35,9 @@ void BoundGrowth::dispatchBinding(Pass& pass, const TileWatch& watch, const Bind
         pass.barrier(Use::compute, Use::compute);
     }
     // Kernels go through what there is to do in strides: how much that is, a part's are the first to know.
+    const uint32_t most = !partly ? 65535 : given.movedWords > 0 ? 1024 : 64;
     const auto groupsFor = [&](uint32_t items) {
-        return std::array<uint32_t, 3>{partly ? 64u : std::min(items / 64 + 1, 65535u), 1, 1};
+        return std::array<uint32_t, 3>{std::min(items / 64 + 1, most), 1, 1};
     };
     pass.dispatch(bindSpans_, groupsFor(nodes), {}, {table, watch.record(), in});
     pass.barrier(Use::compute, Use::compute);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <span>
+
 #include "runtime/expand/growth_data.hpp"
+#include "runtime/graph/node.hpp"
 #include "shaders/emit/emit_records.h"
 
 namespace espalier {
@@ -8,8 +11,10 @@ namespace espalier {
 // What is emitted: growth, and where it stands.
 struct EmitInputs {
     GrowthView growth;
-    SurfaceBuf surfaces{};          // indexed by surface instance
-    uint64_t surfacesRevision = 0;  // another one when a surface stands elsewhere
+    SurfaceBuf surfaces{};  // indexed by surface instance
+    // [instance]: another one when a surface stands elsewhere, or another one there; 0: nothing grows on it. The table
+    // may lie elsewhere without that.
+    std::span<const Version> placed{};
     // Where things grow, more or less: space is divided there. What lies elsewhere costs more, no more than that.
     glm::vec3 low{-4}, high{4};
     // True: on a software device whose addresses are the process's own, native code binds growth if no recording that

@@ -67,7 +67,8 @@ class Binding {
     }
     void touch() {
         each(push.nodeCount, kNumbersAtOnce, [&](Kernels& kernels, uint i) {
-            if (i >= push.nodesBefore || push.touched.v[i] > push.since) kernels.touchNode(i);
+            const bool wrote = i >= push.nodesBefore || (push.written != 0 && push.touched.v[i] > push.since);
+            if (wrote || kernels.hasMoved(i)) kernels.touchNode(i);
         });
     }
     void bindSpans() {
@@ -120,6 +121,16 @@ class Binding {
 };
 
 }  // namespace
+
+float movedShare(NodeBuf nodes, uint32_t count, std::span<const uint32_t> bits) {
+    constexpr uint32_t kStep = 61;  // that chunks don't have
+    uint32_t all = 0, moved = 0;
+    for (uint32_t i = 0; i < count; i += kStep, ++all) {
+        const uint32_t instance = nodes.v[i].place >> 16;
+        moved += instance / 32 < bits.size() && (bits[instance / 32] >> (instance % 32) & 1) != 0;
+    }
+    return all > 0 ? float(moved) / float(all) : 0;
+}
 
 void bindNative(const BindInputs& push, const EmitTable& table, const EmitView& watched, unsigned threads) {
     Binding binding(push, table, watched, threads);

@@ -132,7 +132,8 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
     }
     if (def.scene) inputs.ground.drawn = false;  // the ground of a host's scene is the host's
     inputs.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
-    inputs.surfacesRevision = context.tablesRevision;
+    const std::vector<Version> placed = context.carriersPlaced();
+    inputs.placed = placed;
     inputs.layers = addressOf<LayerBuf>(context.layerTable);
     inputs.camera = {vec(def.camera.eye), vec(def.camera.target), vec(def.camera.up),
                      def.camera.fovY,     def.camera.nearPlane,   {def.camera.shift[0], def.camera.shift[1]}};
@@ -382,7 +383,8 @@ EspResult espMaterialise(EspContext* context, EspTriangles* out) {
         EmitInputs inputs;
         inputs.growth = context->growth->view();
         inputs.surfaces = addressOf<SurfaceBuf>(context->surfaceTable);
-        inputs.surfacesRevision = context->tablesRevision;
+        const std::vector<Version> placed = context->carriersPlaced();
+        inputs.placed = placed;
         context->dropTriangles();
         if (inputs.growth.nodeCount > 0) {
             Result<EmittedTriangles> triangles = context->renderer->materialise(inputs);

@@ -20,7 +20,7 @@ bool standsYet(const EspContext& context, const PlantRecords& plant) {
     std::vector<bool> there(context.grownSurfaces.size());
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
         if (surface.instance >= there.size()) return;
-        const auto& [grownOn, toWorld] = context.grownSurfaces[surface.instance];
+        const auto& [grownOn, toWorld, placed] = context.grownSurfaces[surface.instance];
         const bool stands =
             across ? toWorld == surface.toWorld : sameScale(glm::length(glm::vec3(toWorld[0])), surface.scale);
         there[surface.instance] = grownOn == id && stands;
@@ -28,6 +28,15 @@ bool standsYet(const EspContext& context, const PlantRecords& plant) {
     return std::ranges::all_of(plant.nodes, [&](const Node& node) {
         return instanceOfNode(node) < there.size() && there[instanceOfNode(node)];
     });
+}
+
+std::vector<uint32_t> instancesOf(const PlantRecords& plant) {
+    std::vector<uint32_t> instances;
+    for (const Node& node : plant.nodes)
+        if (instances.empty() || instances.back() != node.place >> 16) instances.push_back(node.place >> 16);
+    std::ranges::sort(instances);
+    instances.erase(std::unique(instances.begin(), instances.end()), instances.end());
+    return instances;
 }
 
 // The plant as last grown.
@@ -42,6 +51,7 @@ EspResult freeze(EspContext& context, PlantedSeed& seed, uint32_t id) {
         return fail(
             &context, ESP_INVALID_ARGUMENT,
             "espFreezePlant: a surface that the plant has grown on is gone, scaled or moved against another since");
+    seed.frozenOn = instancesOf(*plant);
     seed.frozen = std::move(plant);
     context.nodes.seeds.change();
     return ESP_OK;
@@ -60,9 +70,11 @@ EspResult freezeAs(EspContext& context, PlantedSeed& seed, std::span<const std::
     for (const Node& node : plant->nodes)
         if (!there[node.place >> 16])
             return fail(&context, ESP_INVALID_CONTENT, "espFreezeAs: a surface that the plant has grown on is missing");
+    std::vector<uint32_t> instances = instancesOf(*plant);
     auto frozen = std::make_shared<PlantRecords>(std::move(*plant));
     context.changes.frozen.push_back(seedKey(seed));  // unlike a plant that is frozen as it stands
     seed.frozen = std::move(frozen);
+    seed.frozenOn = std::move(instances);
     context.nodes.seeds.change();
     return ESP_OK;
 }

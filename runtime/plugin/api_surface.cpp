@@ -137,7 +137,7 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     dropUploaded(placed.data);
     prepareSearch(placed);
     placing.done();
-    context.nodes.surfaces.change();
+    placed.placed = context.nodes.surfaces.change();
     out->id = id;
     return ESP_OK;
 }
@@ -174,7 +174,7 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
     });
     context.plants.reset();  // which were read where they stood
     context.surfaceChanges = std::move(changes);
-    context.nodes.surfaces.change();
+    surface.placed = context.nodes.surfaces.change();
     return ESP_OK;
 }
 
@@ -195,6 +195,16 @@ std::vector<glm::mat4> EspContext::stands() const {
     for (size_t i = 0; i < grownSurfaces.size(); ++i) places[i] = grownSurfaces[i].toWorld;
     surfaces.forEach([&](uint32_t, const PlacedSurface& surface) { places[surface.instance] = surface.toWorld; });
     return places;
+}
+
+std::vector<Version> EspContext::carriersPlaced() const {
+    std::vector<Version> placed(carriers.size());
+    const auto put = [&](size_t instance, Version version) {
+        if (instance < carriers.size() && carriers[instance]) placed[instance] = version;
+    };
+    for (size_t i = 0; i < grownSurfaces.size(); ++i) put(i, grownSurfaces[i].placed);
+    surfaces.forEach([&](uint32_t, const PlacedSurface& surface) { put(surface.instance, surface.placed); });
+    return placed;
 }
 
 Status EspContext::refreshTables() {
@@ -224,7 +234,6 @@ Status EspContext::refreshTables() {
         Result<Buffer> newLayers = makeBuffer(*device, "layer table", layerRefs);
         if (!newLayers) return newLayers.failure();
         surfaceTable = std::move(*newSurfaces);
-        ++tablesRevision;
         layerTable = std::move(*newLayers);
         nodes.tables.made();
     }

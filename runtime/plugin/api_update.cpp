@@ -16,9 +16,20 @@ namespace {
 
 // What has grown stands on these.
 void noteSurfaces(EspContext& context) {
+    if (context.nodes.carriers.due()) {
+        std::vector<bool> carriers(context.surfaceSlots());
+        context.seeds.forEach([&](uint32_t, const PlantedSeed& seed) {
+            carriers[instanceOf(seed.surface)] = true;
+            if (seed.frozen)
+                for (uint32_t instance : seed.frozenOn) carriers[instance] = true;
+        });
+        addReached(context, carriers);
+        context.carriers = std::move(carriers);
+        context.nodes.carriers.made();
+    }
     context.grownSurfaces.assign(context.surfaceSlots(), {});
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
-        context.grownSurfaces[surface.instance] = {id, surface.toWorld};
+        context.grownSurfaces[surface.instance] = {id, surface.toWorld, surface.placed};
     });
 }
 

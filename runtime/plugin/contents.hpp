@@ -33,6 +33,7 @@ namespace espalier {
 struct PlacedSurface {
     uint32_t instance = 0;
     EspTransform place;
+    Version placed = 0;  // of where it stands
     glm::mat4 toWorld{1}, toObject{1};
     float scale = 1;
     SurfaceData data;  // without images and all levels but the first, once it is on the GPU
@@ -100,6 +101,7 @@ struct PlantedSeed {
     glm::vec3 givenPosition{0}, givenDirection{0};   // as the host asked
     std::vector<SeedParam> params;                   // by name
     std::shared_ptr<const PlantRecords> frozen;      // its plant, if it is to stay as it is
+    std::vector<uint32_t> frozenOn;                  // instances of surfaces that this stands on
     uint32_t variant = kNoIndex;                     // place in EspContext::variants, since the last refreshVariants
 };
 

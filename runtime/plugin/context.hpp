@@ -38,8 +38,9 @@ struct ContextNodes {
     graph::Node town;       // its houses, what is painted over it, which grammar it grows by
     graph::Node roofRules;  // with their parameters
 
-    graph::Node contacts{&surfaces};         // between surfaces
-    graph::Node tables{&contacts, &layers};  // by which kernels read surfaces and layers
+    graph::Node contacts{&surfaces};          // between surfaces
+    graph::Node carriers{&contacts, &seeds};  // surfaces that plants stand on or may get to
+    graph::Node tables{&contacts, &layers};   // by which kernels read surfaces and layers
     graph::Node plants{&contacts, &paint, &rules, &seeds, &limits};
     graph::Node patterns{&tables, &paint, &rules, &seeds, &limits, &fields};
     graph::Node roofs{&town, &roofRules};
@@ -93,7 +94,6 @@ struct EspContext {
     uint32_t contactCount = 0;      // crossings between surfaces
     double contactMs = 0;           // of finding them the last time, CPU
     espalier::Buffer surfaceTable;  // SurfaceRef[stands().size()]
-    uint64_t tablesRevision = 0;    // grows when they are made anew
     espalier::Buffer layerTable;    // LayerRef[stands().size() * kMaxLayers]
     double compileMs = 0;
 
@@ -101,7 +101,9 @@ struct EspContext {
     struct GrownSurface {
         uint32_t id = 0;  // 0: there was none
         glm::mat4 toWorld{1};
+        espalier::Version placed = 0;  // of that
     };
+    std::vector<bool> carriers;               // [instance], likewise
     std::vector<GrownSurface> grownSurfaces;  // [instance], as growth found them
     std::optional<espalier::Plants> plants;   // what was grown, read back when asked for
     uint64_t plantsRevision = 0;              // of the growth's view
@@ -126,6 +128,8 @@ struct EspContext {
     uint32_t surfaceSlots() const;
     // [instance]: where what has grown on a surface stands in the world, also if that has been destroyed since.
     std::vector<glm::mat4> stands() const;
+    // [instance]: of where a surface stands that carries growth; 0: none of it does.
+    std::vector<espalier::Version> carriersPlaced() const;
     // Makes the tables if they are due, and uploads grammars that have changed.
     espalier::Status refreshTables();
 };

@@ -178,7 +178,6 @@ Result<CheckPicture> draw(Device& device, Renderer& renderer, const Plant& plant
     DrawInputs inputs;
     inputs.growth = plant.growth->view();
     inputs.surfaces = plant.surfaceTable();
-    inputs.surfacesRevision = 1;
     inputs.layers = addressOf<LayerBuf>(plant.layers);
     inputs.roofs = &roofs;
     inputs.camera = {.eye = {1.5f, 2, 3.5f}, .target = {1.5f, 1, 0}, .fovY = .9f};

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 
 #include "runtime/emit/emit.hpp"
 #include "runtime/render/ground.hpp"
@@ -53,9 +54,10 @@ struct Look {
 };
 
 struct DrawInputs {
-    GrowthView growth;                // nodeCount 0: nothing grows
-    SurfaceBuf surfaces{};            // device address of the SurfaceRef table; 0: no growth and no chart view
-    uint64_t surfacesRevision = 0;    // another one when that table says something else
+    GrowthView growth;      // nodeCount 0: nothing grows
+    SurfaceBuf surfaces{};  // device address of the SurfaceRef table; 0: no growth and no chart view
+    // As EmitInputs has it; growth stands on no model whose instance has none or 0. Empty: it may stand on all.
+    std::span<const Version> placed;
     LayerBuf layers{};                // surfaces * kMaxLayers; 0: no layer view
     const RoofView* roofs = nullptr;  // none; needs loadRoofMeshes()
     GroundLook ground;

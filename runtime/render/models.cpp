@@ -198,6 +198,16 @@ void Models::bounds(glm::vec3& low, glm::vec3& high) const {
     }
 }
 
+std::optional<std::array<glm::vec3, 2>> Models::carrierBounds(std::span<const Version> placed) const {
+    std::optional<std::array<glm::vec3, 2>> box;
+    for (const auto& [instance, model] : models_) {
+        if (!placed.empty() && (instance >= placed.size() || placed[instance] == 0)) continue;
+        if (!box) box = {model.low, model.high};
+        box = {glm::min((*box)[0], model.low), glm::max((*box)[1], model.high)};
+    }
+    return box;
+}
+
 float Models::lengthUnit() const {
     float least = std::numeric_limits<float>::max(), most = 0;
     for (const auto& [index, model] : models_) {

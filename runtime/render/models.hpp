@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "runtime/gpu/commands.hpp"
+#include "runtime/graph/node.hpp"
 #include "runtime/render/ground.hpp"
 #include "runtime/surface/length_unit.hpp"
 #include "runtime/surface/surface.hpp"
@@ -81,6 +83,8 @@ class Models {
     bool empty() const { return models_.empty(); }
     // World bounds of all models; a small box around the origin if there are none.
     void bounds(glm::vec3& low, glm::vec3& high) const;
+    // Of those that DrawInputs::placed says growth may stand on; nothing if there are none.
+    std::optional<std::array<glm::vec3, 2>> carrierBounds(std::span<const Version> placed) const;
     float lengthUnit() const;
 
   private:

@@ -153,8 +153,11 @@ Status Renderer::drawModels(Commands& commands, const DrawInputs& inputs, const 
 }
 
 EmitInputs Renderer::emitInputs(const DrawInputs& inputs) const {
-    EmitInputs given{inputs.growth, inputs.surfaces, inputs.surfacesRevision};
-    if (!models_.empty()) models_.bounds(given.low, given.high);
+    EmitInputs given{inputs.growth, inputs.surfaces, inputs.placed};
+    if (const auto box = models_.carrierBounds(inputs.placed)) {
+        given.low = (*box)[0];
+        given.high = (*box)[1];
+    }
     return given;
 }
 

@@ -214,6 +214,8 @@ struct EmitGrid {
     uint size[3];
 };
 
+CONST_UINT(kMovedWords, 128u);   // more instances than a context has places for
+
 // What the kernels that bind growth read, a uniform block. Items are node indices, or leafBase + leaf indices.
 struct BindInputs {
     NodeBuf nodes;
@@ -234,14 +236,18 @@ struct BindInputs {
     EmitGrid grid;
     uint nodeCount, leafCount, leafBase;
     uint orderRoom;
-    uint partly;                // 0: all is bound; 1: what regrowths after the one of number `since` have written, and
-    uint since;                 // what there wasn't before:
+    uint partly;                // 0: all is bound; 1: what there wasn't before, what regrowths have written since, and
+                                // what stands on surfaces that have moved:
     uint nodesBefore, leavesBefore;
+    uint written;               // 1: regrowths have, after the one of number
+    uint since;
     uint leafWork;
     uint watched;               // 1: tiles of a watched picture are noted
     uint binding;               // number of the whole binding that this is, or comes after; not 0
+    uint movedWords;            // that have a bit set are below this
+    uint moved[kMovedWords];    // surface instances: bit i % 32 of word i / 32
 };
-STATIC_SIZE(BindInputs, 200);
+STATIC_SIZE(BindInputs, 720);
 // cells[kAllCells]: first: triangles of all items at full detail; count: where room in the order begins; changed: items
 // of the list; reach, largest: nodes and leaves of the work; room: EmitState::crowded.
 CONST_UINT(kFresh, 0x80000000u);

@@ -43,6 +43,13 @@ void flagFollowers(uint i) {
     }
 }
 
+// Whether a node that was bound stands on a surface that has moved since.
+bool hasMoved(uint i) {
+    if (push.movedWords == 0u) return false;
+    uint instance = push.nodes.v[i].place >> 16u;
+    return instance < 32u * push.movedWords && (push.moved[instance / 32u] >> (instance % 32u) & 1u) != 0u;
+}
+
 void touchNode(uint i) {
     flagNode(i, kFlagSpan);
     if (push.nodes.v[i].radius >= 0.0f) flagFollowers(i);

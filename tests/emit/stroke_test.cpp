@@ -20,7 +20,7 @@ TEST_CASE("however long a stroke, everything is bound once") {
         for (glm::vec4& plane : view.planes) plane = glm::vec4(0, 0, 0, 1);
         const Buffer surfaces = std::move(*makeBuffer(*device, "surfaces", test::PlantData().surfaces));
         const auto inputs = [&] {
-            EmitInputs given{s.growth->view(), {}, 1};
+            EmitInputs given{s.growth->view()};
             given.native = native;
             given.surfaces.v = reinterpret_cast<SurfaceRef*>(surfaces.address());
             return given;

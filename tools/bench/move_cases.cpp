@@ -1,10 +1,12 @@
 // move/…: surfaces that move, come and go by themselves, through the plugin's interface: what an update costs then,
-// beside growing everything anew. Painting and drawing aren't in it.
+// beside growing everything anew, and what a picture costs after it, beside one for which everything is bound anew.
 #include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "plugin_api/espalier.h"
 #include "tools/bake/bake.hpp"
@@ -70,6 +72,11 @@ class Walls {
         const EspTransform place = placedAt(x, 0);
         return espMoveSurface(context_, wall_, &place) == ESP_OK;
     }
+    // The one with most of the nodes.
+    bool moveOther(float x) {
+        const EspTransform place = placedAt(x, kFar);
+        return espMoveSurface(context_, beside_, &place) == ESP_OK;
+    }
     bool update() { return espUpdate(context_) == ESP_OK; }
     bool growAll() {
         EspGrowDef grow = espDefaultGrowDef();
@@ -85,6 +92,8 @@ class Walls {
         def.look.shadows = 0;
         return espDraw(context_, &def) == ESP_OK;
     }
+    // So that the next picture binds everything anew.
+    bool forget() { return espDropFrame(context_) == ESP_OK; }
     uint64_t onWall() const { return onWall_; }
     EspStats stats() const {
         EspStats stats{};
@@ -126,6 +135,24 @@ std::string figureOf(const char* what, uint64_t nodes) {
     return std::string(what) + "; " + std::to_string(nodes) + " nodes stand";
 }
 
+// Times of pictures after `change` and an update, and of such for which everything is bound anew as well.
+template <class Change>
+Pair picturesAfter(const Bench& bench, Walls& walls, bool& sound, const Change& change) {
+    sound = walls.draw() && sound;
+    std::vector<double> parts, wholes;
+    for (int i = 0; i < 2 * bench.options().repeats; ++i) {
+        sound = change() && walls.update() && sound;
+        if (i % 2 != 0) sound = walls.forget() && sound;
+        (i % 2 != 0 ? wholes : parts).push_back(seconds([&] { sound = walls.draw() && sound; }));
+    }
+    return {median(parts), median(wholes)};
+}
+
+void addPictures(Bench& bench, const char* name, const std::string& figure, const Pair& times) {
+    bench.add({name, "a picture of 64 x 36 after " + figure, "ms", 1e3 * times.a, "one for which all is bound anew",
+               1e3 * times.b});
+}
+
 void moveAlone(Bench& bench, Walls& walls) {
     const uint64_t nodes = walls.stats().nodes;
     uint64_t derived = 0;
@@ -144,12 +171,13 @@ void moveAlone(Bench& bench, Walls& walls) {
         {"move/alone", figureOf(what.c_str(), nodes), "ms", 1e3 * times.a / kMoves, "everything anew", 1e3 * times.b});
     bench.add({"move/alone/derived", "nodes derived by all of these", "nodes", double(derived), "those that stand",
                double(nodes)});
-    const Pair pictures = medianSeconds(
-        bench.options().repeats, [&] { sound = walls.moveWall(at += .01f) && walls.update() && walls.draw() && sound; },
-        [&] { sound = walls.draw() && sound; });
+    at = 0;
+    const Pair few = picturesAfter(bench, walls, sound, [&] { return walls.moveWall(at += .01f); });
+    const Pair most = picturesAfter(bench, walls, sound, [&] { return walls.moveOther(at += .01f); });
     if (!sound) return bench.skip("move/alone/picture", walls.why());
-    bench.add({"move/alone/picture", "the same with a picture of 64 x 36, for which all is bound anew", "ms",
-               1e3 * pictures.a, "a picture alone", 1e3 * pictures.b});
+    addPictures(bench, "move/alone/picture", "a move of a wall with " + std::to_string(walls.onWall()) + " nodes", few);
+    addPictures(bench, "move/most/picture",
+                "a move of a wall with " + std::to_string(nodes - walls.onWall()) + " nodes", most);
 }
 
 void comeAndGo(Bench& bench, Walls& walls) {
@@ -169,7 +197,14 @@ void comeAndGo(Bench& bench, Walls& walls) {
         update();
         whole.push_back(seconds([&] { sound = walls.growAll() && sound; }));
     }
+    EspSurface third{};
+    const Pair pictures = picturesAfter(bench, walls, sound, [&] {
+        if (third.id != 0) return walls.destroy(std::exchange(third, {}));
+        return walls.load(Walls::kFar, Walls::kFar / 2, third);
+    });
+    if (third.id != 0) sound = walls.destroy(third) && sound;
     if (!sound) return bench.skip("move/unrelated", walls.why());
+    addPictures(bench, "move/unrelated/picture", "a surface has come, or gone, that touches nothing", pictures);
     bench.add({"move/unrelated", figureOf("the update after a surface has come, or gone, that touches nothing", nodes),
                "ms", 1e3 * median(updates), "everything anew", 1e3 * median(whole)});
     bench.add({"move/unrelated/derived", "nodes derived by all of these", "nodes", double(derived), "those that stand",
