@@ -21,7 +21,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* ESPALIER_STATIC: the library is linked into the program (CMake's target says so by itself). ESPALIER_BUILDS: this is
+ * the library. */
+#if defined(_WIN32) && defined(ESPALIER_STATIC)
+#define ESP_API
+#elif defined(_WIN32) && defined(ESPALIER_BUILDS)
+#define ESP_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define ESP_API __declspec(dllimport)
+#else
 #define ESP_API __attribute__((visibility("default")))
+#endif
 
 #ifdef __cplusplus
 extern "C" {

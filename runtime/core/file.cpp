@@ -1,14 +1,13 @@
 // Files in and out, whole. Writing goes through a neighbour that is renamed, so that nothing is ever half-written.
 #include "runtime/core/file.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
+#include <memory>
+
+#include "runtime/core/platform.hpp"
 
 namespace espalier {
 namespace {
@@ -17,41 +16,28 @@ Failure systemFailure(const std::filesystem::path& path, const std::string& what
     return Failure(path.string(), what + ": " + std::strerror(error));
 }
 
-class Descriptor {
-  public:
-    explicit Descriptor(int fd) : fd_(fd) {}
-    ~Descriptor() {
-        if (fd_ >= 0) ::close(fd_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int get() const { return fd_; }
-    int close() { return ::close(std::exchange(fd_, -1)); }
-
-  private:
-    int fd_;
-};
-
 template <class Container>
 Result<Container> readWhole(const std::filesystem::path& path) {
-    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));  // a pipe may have no other end
-    if (file.get() < 0) return systemFailure(path, "cannot be opened", errno);
-    struct stat info {};
-    if (::fstat(file.get(), &info) != 0) return systemFailure(path, "cannot be read", errno);
-    if (S_ISDIR(info.st_mode)) return Failure(path.string(), "is a folder, not a file");
-    if (S_ISCHR(info.st_mode) || S_ISBLK(info.st_mode)) return Failure(path.string(), "is a device, not a file");
-    if (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode)) return Failure(path.string(), "is a pipe, not a file");
+    using Kind = platform::File::Kind;
+    platform::File file(path, platform::File::Open::read);
+    if (file.error() != 0) return systemFailure(path, "cannot be opened", file.error());
+    Kind kind;
+    uint64_t size = 0;
+    if (const int error = file.describe(kind, size)) return systemFailure(path, "cannot be read", error);
+    if (kind == Kind::folder) return Failure(path.string(), "is a folder, not a file");
+    if (kind == Kind::device) return Failure(path.string(), "is a device, not a file");
+    if (kind == Kind::pipe) return Failure(path.string(), "is a pipe, not a file");
     try {
         Container bytes;
-        bytes.resize(size_t(info.st_size));
+        bytes.resize(size_t(size));
         size_t have = 0;
         for (;;) {  // growing files and those of /proc have no size to trust
             if (have == bytes.size()) bytes.resize(have + 65536);
-            ssize_t got = ::read(file.get(), bytes.data() + have, bytes.size() - have);
-            if (got < 0 && errno == EINTR) continue;
-            if (got < 0) return systemFailure(path, "cannot be read", errno);
+            size_t got = 0;
+            const int error = file.read(std::as_writable_bytes(std::span(bytes)).subspan(have), got);
+            if (error != 0) return systemFailure(path, "cannot be read", error);
             if (got == 0) break;
-            have += size_t(got);
+            have += got;
         }
         bytes.resize(have);
         return bytes;
@@ -60,13 +46,13 @@ Result<Container> readWhole(const std::filesystem::path& path) {
     }
 }
 
-// A file that nobody has, beside `path`; the process's file mode mask applies.
-int makeNeighbour(const std::filesystem::path& path, std::string& name) {
+// A file that nobody has, beside `path`.
+std::unique_ptr<platform::File> makeNeighbour(const std::filesystem::path& path, std::string& name) {
     constexpr int kAttempts = 100;
     for (int attempt = 0;; ++attempt) {
         name = neighbourOf(path);
-        const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-        if (fd >= 0 || errno != EEXIST || attempt == kAttempts) return fd;
+        auto file = std::make_unique<platform::File>(name, platform::File::Open::create);
+        if (file->error() != EEXIST || attempt == kAttempts) return file;
     }
 }
 
@@ -80,16 +66,6 @@ std::filesystem::path behindLinks(const std::filesystem::path& path) {
     return behind;
 }
 
-int writeAll(int fd, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        ssize_t put = ::write(fd, bytes.data(), bytes.size());
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) return errno;
-        bytes = bytes.subspan(size_t(put));
-    }
-    return 0;
-}
-
 }  // namespace
 
 Result<std::vector<std::byte>> readFile(const std::filesystem::path& path) {
@@ -101,10 +77,8 @@ Result<std::string> readTextFile(const std::filesystem::path& path) {
 }
 
 std::string neighbourOf(const std::filesystem::path& path) {
-    uint64_t random = 0;
-    (void)::getentropy(&random, sizeof random);
     char digits[24];
-    std::snprintf(digits, sizeof digits, ".%016" PRIx64, random);
+    std::snprintf(digits, sizeof digits, ".%016" PRIx64, platform::randomBits());
     return path.string() + digits + ".partial";
 }
 
@@ -120,20 +94,23 @@ Status writeFile(const std::filesystem::path& path, std::span<const std::byte> b
     // A pipe or a device is no file that could be replaced: renaming over /dev/null would be a disaster.
     const bool special = type == Type::character || type == Type::block || type == Type::fifo || type == Type::socket;
     if (special && follow) {
-        Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-        const int failed = device.get() < 0 ? errno : writeAll(device.get(), bytes);
+        platform::File device(path, platform::File::Open::write);
+        const int failed = device.error() != 0 ? device.error() : device.write(bytes);
         return failed ? Status(systemFailure(path, "cannot be written", failed)) : Status(Done{});
     }
 
     const std::filesystem::path target = follow ? behindLinks(path) : path;
     std::string partial;
-    Descriptor file(makeNeighbour(target, partial));
-    if (file.get() < 0) return systemFailure(path, "cannot be written", errno);
-    int reason = writeAll(file.get(), bytes);
-    if (file.close() != 0 && !reason) reason = errno;
-    if (!reason && ::rename(partial.c_str(), target.c_str()) != 0) reason = errno;
+    const std::unique_ptr<platform::File> file = makeNeighbour(target, partial);
+    if (file->error() != 0) return systemFailure(path, "cannot be written", file->error());
+    int reason = file->write(bytes);
+    if (const int failed = file->close(); !reason) reason = failed;
+    if (!reason) {
+        std::filesystem::rename(partial, target, error);
+        reason = error.value();
+    }
     if (!reason) return Done{};
-    ::unlink(partial.c_str());
+    std::filesystem::remove(partial, error);
     return systemFailure(path, "cannot be written", reason);
 }
 

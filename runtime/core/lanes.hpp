@@ -1,18 +1,12 @@
 #pragma once
 
 // Loops over lanes: arrays of which an element each belongs to one of several things that are worked out alike. Where
-// their body has no branches the compiler makes vectors of them.
+// their body has no branches the compiler makes vectors of them; ESPALIER_LANES (platform.hpp) lets it make wider ones.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-// Of a function with such loops. Wider vectors where the machine has them, told at run time; no fused operations, so
-// the bits are the same.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define ESPALIER_LANES __attribute__((flatten, target_clones("avx2", "default")))
-#else
-#define ESPALIER_LANES __attribute__((flatten))
-#endif
+#include "runtime/core/platform.hpp"
 
 namespace espalier {
 

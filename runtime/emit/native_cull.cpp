@@ -35,11 +35,11 @@ struct Kernels {
     // Asks memory for the words that are looked at.
     void ask(uint item, bool leaf) const {
         if (leaf) {
-            __builtin_prefetch(leafWords + 4 * (item - push.leafBase));
+            ESPALIER_WILL_READ(leafWords + 4 * (item - push.leafBase));
             return;
         }
-        __builtin_prefetch(spanWords + 6 * item);
-        __builtin_prefetch(spanWords + 6 * item + 5);
+        ESPALIER_WILL_READ(spanWords + 6 * item);
+        ESPALIER_WILL_READ(spanWords + 6 * item + 5);
     }
 };
 

@@ -62,8 +62,8 @@ ESPALIER_LANES void makeRings(const SpanInstance& given, Rings& out) {
     for (uint32_t i = 0; roundedTip(span) && i < kBarkRings; ++i) out.radius[i] = tipRadius(span, i);
 }
 
-ESPALIER_LANES void makePairs(const Rings& __restrict rings, float across, float upward, Column& __restrict ahead,
-                              Column& __restrict behind) {
+ESPALIER_LANES void makePairs(const Rings& ESPALIER_ALONE rings, float across, float upward,
+                              Column& ESPALIER_ALONE ahead, Column& ESPALIER_ALONE behind) {
     for (uint32_t i = 0; i < kLanes; ++i) {
         BarkRing r;
         r.side = {rings.side[0][i], rings.side[1][i], rings.side[2][i]};

@@ -94,8 +94,7 @@ uint32_t writeLeaves(const ExpandEnv& env, FinishRoom& room, uvec2& hash) {
 // Finishes the nodes nodeOf(i), i in [begin, end): keep(i, finish) is called for each. Returns the sum of their leaves'
 // hashes.
 template <class NodeOf, class Keep>
-__attribute__((flatten)) uvec2 finishEach(ExpandEnv env, size_t begin, size_t end, const NodeOf& nodeOf,
-                                          const Keep& keep) {
+ESPALIER_FLATTEN uvec2 finishEach(ExpandEnv env, size_t begin, size_t end, const NodeOf& nodeOf, const Keep& keep) {
     uvec2 hash(0, 0);
     const auto room = std::make_unique<FinishRoom>();
     const bool joined = joints(env);

@@ -13,7 +13,7 @@
 #include "shaders/shared/expand_grow.h"
 
 // All of a pass in one function: its state stays in registers, and pointers needn't be handed on.
-#define ESPALIER_WHOLE __attribute__((flatten))
+#define ESPALIER_WHOLE ESPALIER_FLATTEN
 
 namespace espalier {
 namespace {
@@ -124,7 +124,7 @@ ESPALIER_WHOLE void marchLanes(Lane* lanes, uint32_t marching, WideWalks* wide) 
 void growItems(const ExpandEnv& env, WaveItems& items, uint32_t most, bool wide) {
     GrowthTally tally = emptyTally();
     WideWalks walks = {};
-    walks.vectors = widestVectors();
+    walks.vectors = platform::widestVectors();
     Lane lanes[kWalkLanes];
     for (Lane& lane : lanes) {
         lane.env = env;
@@ -149,7 +149,7 @@ void overRange(uint32_t first, uint32_t last, size_t grain, Crew& crew, const Bo
 
 // See marchNative.
 uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide, GrowthWatch* watch) {
-    wide = wide && widestVectors() != VectorKind::narrow && !PAPER_WALK(env);
+    wide = wide && platform::widestVectors() != VectorKind::narrow && !PAPER_WALK(env);
     uint32_t w = env.wave;
     for (; w < most && env.waves.v[w].count > 0 && !(watch && watch->stopped()); ++w) {
         env.wave = w;

@@ -36,7 +36,7 @@ void finishWork(ExpandEnv env, size_t begin, size_t end) {
 template <class Record>
 void fetch(const Record* records, size_t count) {
     const char* at = reinterpret_cast<const char*>(records);
-    for (const char* end = at + count * sizeof(Record); at < end; at += kCacheLine) __builtin_prefetch(at, 1);
+    for (const char* end = at + count * sizeof(Record); at < end; at += kCacheLine) ESPALIER_WILL_WRITE(at);
 }
 void fetchLeaves(const ExpandEnv& env, const LeafChains& chains, const ChunkBefore& was) {
     for (uint32_t lane = 0; lane < chunkNodes(was.marks); ++lane) {

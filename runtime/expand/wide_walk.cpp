@@ -2,17 +2,8 @@
 // the compiler makes vectors (CMakeLists.txt lets it); what reads the surface goes lane by lane between them.
 #include "runtime/expand/wide_walk.hpp"
 
+#include <bit>
 #include <initializer_list>
-
-// clang hands small vectors over in registers, also where it inlines, and makes none of loops over them: such loops
-// take a third more time than walks one by one.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define ESPALIER_AVX2 __attribute__((flatten, target("avx2")))
-#define ESPALIER_AVX512 __attribute__((flatten, target("avx512f,avx512bw,avx512dq,avx512vl")))
-#else
-#define ESPALIER_AVX2
-#define ESPALIER_AVX512
-#endif
 
 namespace espalier {
 namespace {
@@ -101,8 +92,8 @@ inline void setOut(WideWalks& l) {
 // Has the processor fetch what the next two ask for.
 void expectEnd(const WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
     const SurfaceLevel& level = surfaces.v[l.instance[i]].levels[l.level[i]];
-    for (uint32_t at : {l.at00[i], l.at10[i], l.at01[i], l.at11[i]}) __builtin_prefetch(level.texels.v + at);
-    if (l.searches[i] != 0) __builtin_prefetch(level.crossingHead.v + l.at00[i]);
+    for (uint32_t at : {l.at00[i], l.at10[i], l.at01[i], l.at11[i]}) ESPALIER_WILL_READ(level.texels.v + at);
+    if (l.searches[i] != 0) ESPALIER_WILL_READ(level.crossingHead.v + l.at00[i]);
 }
 
 // Of a stretch that leaves its chart the end is beyond the crossing: it is read there.
@@ -218,20 +209,10 @@ constexpr LaneLoops kLoopsAvx2 = {withAvx2<setOut>, withAvx2<blendEnds>, withAvx
 // visit(lane) for each bit.
 template <class Visit>
 void forLanes(uint32_t lanes, const Visit& visit) {
-    for (; lanes != 0; lanes &= lanes - 1) visit(uint32_t(__builtin_ctz(lanes)));
+    for (; lanes != 0; lanes &= lanes - 1) visit(uint32_t(std::countr_zero(lanes)));
 }
 
 }  // namespace
-
-VectorKind widestVectors() {
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl"))
-        return VectorKind::avx512;
-    if (__builtin_cpu_supports("avx2")) return VectorKind::avx2;
-#endif
-    return VectorKind::narrow;
-}
 
 void putWalk(WideWalks& l, uint32_t i, SurfaceBuf surfaces, uint32_t level, const WalkState& w, float remaining) {
     storeWalk(l, i, w);

@@ -7,16 +7,12 @@
 #include <cstdint>
 
 #include "runtime/core/lanes.hpp"
+#include "runtime/core/platform.hpp"
 #include "shaders/shared/walk.h"
 
 namespace espalier {
 
 constexpr uint32_t kWalkLanes = 16;
-
-// Vectors of eight floats, AVX2's, or of 16, AVX-512's. Narrower ones don't pay: walks go one by one.
-enum class VectorKind { narrow, avx2, avx512 };
-// The widest that this processor has and the compiler makes use of.
-VectorKind widestVectors();
 
 // What lanes compute with. Lanes that were never put are zero, or hold what another walk left there.
 struct alignas(64) WideWalks {
@@ -24,7 +20,7 @@ struct alignas(64) WideWalks {
     using Words = uint32_t[kWalkLanes];
     using Vectors = LaneVectors<kWalkLanes>;
 
-    VectorKind vectors;  // that this processor has
+    VectorKind vectors;  // platform::widestVectors(), which aren't narrow: walks go one by one there
 
     // The walk: WalkState's parts, and what is still to be walked, metres of the world.
     Vectors position, du, dv, normal, heading;

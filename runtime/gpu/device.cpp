@@ -1,11 +1,10 @@
 // The device's daily work: timeline, deferred destruction, names, errors. device_setup.cpp makes it.
 #include "runtime/gpu/device.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <new>
 
+#include "runtime/core/platform.hpp"
 #include "runtime/gpu/command_pools.hpp"
 #include "runtime/gpu/results.hpp"
 #include "runtime/gpu/retire.hpp"
@@ -36,7 +35,7 @@ Device::~Device() {
     }
     if (messenger_) vkInstance_.vkDestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
     if (ownsInstance_) vkInstance_.vkDestroyInstance(instance_, nullptr);
-    if (loader_) ::dlclose(loader_);
+    if (loader_) platform::closeLibrary(loader_);
 }
 
 // Nothing leaves a destructor: where there is no memory for a message, none is made.

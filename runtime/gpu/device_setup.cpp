@@ -1,12 +1,11 @@
 // Makes a Device: from options (loader, instance, messenger, the best physical device, queue), or around a host's.
 // Every way to fail ends in a message that says what is missing.
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
 #include "runtime/core/hash.hpp"
+#include "runtime/core/platform.hpp"
 #include "runtime/gpu/command_pools.hpp"
 #include "runtime/gpu/device.hpp"
 #include "runtime/gpu/features.hpp"
@@ -114,11 +113,11 @@ struct DeviceSetup {
     Device& d;
 
     Status openLoader() {
-        // NODELETE: drivers keep threads and allocations that outlive the instance.
-        d.loader_ = ::dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-        if (!d.loader_) return Failure(kPlace, "no Vulkan loader (libvulkan.so.1) on this machine");
+        d.loader_ = platform::openLibrary(platform::kVulkanLoader);
+        if (!d.loader_)
+            return Failure(kPlace, std::string("no Vulkan loader (") + platform::kVulkanLoader + ") on this machine");
         d.getInstanceProcAddr_ =
-            reinterpret_cast<PFN_vkGetInstanceProcAddr>(::dlsym(d.loader_, "vkGetInstanceProcAddr"));
+            reinterpret_cast<PFN_vkGetInstanceProcAddr>(platform::functionOf(d.loader_, "vkGetInstanceProcAddr"));
         if (!d.getInstanceProcAddr_) return Failure(kPlace, "the Vulkan loader has no vkGetInstanceProcAddr");
         return Done{};
     }

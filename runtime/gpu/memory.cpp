@@ -2,11 +2,6 @@
 // 64 MiB with a best-fit free list; large ones have a block each, which is kept for a later request of like size.
 #include "runtime/gpu/memory.hpp"
 
-#ifdef __linux__
-#include <sys/mman.h>
-#include <unistd.h>
-#endif
-
 #include <bit>
 #include <cstdint>
 #include <iterator>
@@ -16,6 +11,7 @@
 #include <string>
 
 #include "runtime/core/check.hpp"
+#include "runtime/core/platform.hpp"
 #include "runtime/gpu/results.hpp"
 
 namespace espalier {
@@ -26,33 +22,6 @@ constexpr VkDeviceSize kLargeBytes = kBlockBytes / 4;  // from here on: a block 
 
 VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize step) {
     return (value + step - 1) / step * step;
-}
-
-#ifdef __linux__
-// madvise refuses what doesn't begin with a page.
-uintptr_t pageBytes() {
-    static const long size = sysconf(_SC_PAGESIZE);
-    return size > 0 ? uintptr_t(size) : 4096;
-}
-#endif
-
-// Memory of a software device is the process's own: asked to, the system backs it with large pages, which random reads
-// of it miss less often, and first writes wait for less. Mappings of another kind it leaves as they are.
-void askForLargePages([[maybe_unused]] void* at, [[maybe_unused]] VkDeviceSize size) {
-#ifdef MADV_HUGEPAGE
-    const uintptr_t begin = reinterpret_cast<uintptr_t>(at), first = roundUp(begin, pageBytes());
-    if (begin + size > first) (void)madvise(reinterpret_cast<void*>(first), begin + size - first, MADV_HUGEPAGE);
-#endif
-}
-
-// What a software device hands out may have been used before: for all that the system knows its pages are still needed.
-// Dropped, they cost nothing until they are touched, as those of fresh memory do, so that room to spare is free.
-void dropPages([[maybe_unused]] void* at, [[maybe_unused]] VkDeviceSize size) {
-#ifdef __linux__
-    const uintptr_t begin = reinterpret_cast<uintptr_t>(at), page = pageBytes();
-    const uintptr_t first = roundUp(begin, page), last = (begin + size) / page * page;
-    if (last > first) (void)madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED);
-#endif
 }
 
 struct Block {
@@ -216,11 +185,11 @@ class PooledMemory : public MemorySource {
         void* at = nullptr;
         const VkResult result = vk_.vkMapMemory(device_, block.memory, 0, VK_WHOLE_SIZE, 0, &at);
         if (result != VK_SUCCESS) return result;
-        if (software_) dropPages(at, block.size);
+        if (software_) platform::dropPages(at, block.size);
         if (block.image) {
             vk_.vkUnmapMemory(device_, block.memory);
         } else {
-            askForLargePages(at, block.size);
+            platform::askForLargePages(at, block.size);
             block.mapped = static_cast<std::byte*>(at);
         }
         return VK_SUCCESS;

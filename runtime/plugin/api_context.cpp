@@ -1,9 +1,8 @@
 // Creation, destruction and errors of contexts, and the tables that kernels read a scene by.
-#include <dlfcn.h>
-
 #include <cstring>
 #include <fstream>
 
+#include "runtime/core/platform.hpp"
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/features.hpp"
 #include "runtime/plugin/checked_devices.hpp"
@@ -15,11 +14,7 @@ namespace {
 
 // Where the library (or the program that it is linked into) lies: its content is installed next to it.
 std::filesystem::path contentFolder() {
-    Dl_info info{};
-    if (!dladdr(reinterpret_cast<void*>(&espCreate), &info) || !info.dli_fname) return "content";
-    std::error_code ignored;
-    std::filesystem::path library = std::filesystem::canonical(info.dli_fname, ignored);
-    if (ignored) library = std::filesystem::absolute(info.dli_fname, ignored);
+    const std::filesystem::path library = platform::fileOfCode(reinterpret_cast<const void*>(&espCreate));
     return library.parent_path().parent_path() / "content";
 }
 

@@ -2,10 +2,6 @@
 // depends on.
 #include "runtime/plugin/checked_devices.hpp"
 
-#include <signal.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
@@ -15,6 +11,7 @@
 
 #include "runtime/core/file.hpp"
 #include "runtime/core/hash.hpp"
+#include "runtime/core/platform.hpp"
 #include "runtime/gpu/device.hpp"
 #include "runtime/plugin/self_check.hpp"
 #include "shaders/shader_table.hpp"
@@ -60,7 +57,7 @@ class RunningMark {
                          device.info().name + " (" + device.info().driver +
                              "): the last self-check on this device didn't come to its end, as where a "
                              "driver crashes; it is run again");
-        (void)writeFile(file_, std::to_string(::getpid()));
+        (void)writeFile(file_, std::to_string(platform::processNumber()));
     }
     ~RunningMark() {
         std::error_code ignored;
@@ -70,8 +67,7 @@ class RunningMark {
   private:
     bool runs() const {
         const Result<std::string> text = readTextFile(file_);
-        const long process = text ? std::atol(text.value().c_str()) : 0;
-        return process > 0 && (::kill(pid_t(process), 0) == 0 || errno == EPERM);
+        return text && platform::processRuns(std::strtoull(text.value().c_str(), nullptr, 10));
     }
     fs::path file_;
 };

@@ -9,7 +9,7 @@ ESPALIER_BEGIN
 
 FN uint countBits(uint bits) {
 #ifdef __cplusplus
-    return uint(__builtin_popcount(bits));
+    return uint(std::popcount(bits));
 #else
     return uint(bitCount(bits));
 #endif

@@ -139,7 +139,7 @@ FN bool complete(ExpandEnv env) {
 // Index of the lowest bit set; bits != 0.
 FN uint lowestBit(uint bits) {
 #ifdef __cplusplus
-    return uint(__builtin_ctz(bits));
+    return uint(std::countr_zero(bits));
 #else
     return uint(findLSB(bits));
 #endif

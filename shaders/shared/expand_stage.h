@@ -13,7 +13,7 @@ ESPALIER_BEGIN
 #ifdef __cplusplus
 #define STAGED(i) stage.v[i]
 // Few steps come here: the others keep their registers.
-#define FN_SELDOM __attribute__((noinline, flatten)) inline
+#define FN_SELDOM ESPALIER_SELDOM inline
 #else
 #define STAGED(i) LANE_WORD(kLaneStage + (i))
 #define FN_SELDOM

@@ -6,9 +6,12 @@
 #define ESPALIER_SHARED_LANGUAGE_H
 
 #ifdef __cplusplus
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <glm/glm.hpp>
+
+#include "runtime/core/platform.hpp"
 
 #define ESPALIER_BEGIN namespace espalier {
 #define ESPALIER_END }

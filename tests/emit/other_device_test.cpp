@@ -82,7 +82,7 @@ TEST_CASE("what is drawn doesn't depend on the kind of device, nor on how coarse
     const std::shared_ptr<Device> real = test::validatedDevice(), other = discrete(*real);
     REQUIRE_FALSE(other->info().cpu);
     // As many as a kernel sorts on a software device, which ends its loops after 65,535 trips in all.
-    const test::PlantData data = test::wallIvy(10, 4, 3);
+    const test::PlantData data = test::wallIvy(6, 4, 3);
     const EmitView view = parallelView(glm::mat4(1), 120, 1);
     REQUIRE(data.nodes.size() > 30 * kLongRun);  // where cells are coarse most share a few bins
     EmitState states[2];

@@ -115,7 +115,7 @@ void checkSideBySide(const Shape& shape, VectorKind vectors) {
 TEST_CASE("walks side by side come to the bit where one by one they come, and most land") {
     for (const VectorKind vectors : {VectorKind::avx2, VectorKind::avx512}) {
         const bool wide = vectors == VectorKind::avx512;
-        if (vectors > widestVectors()) {
+        if (vectors > platform::widestVectors()) {
             MESSAGE("this processor, or a build by this compiler, has no " << std::string(wide ? "AVX-512" : "AVX2"));
             continue;
         }
