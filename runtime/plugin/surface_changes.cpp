@@ -63,7 +63,7 @@ void noteSurfaceChanges(EspContext& context) {
     });
     // They are noted again at each attempt until one succeeds.
     std::ranges::sort(noted);
-    noted.erase(std::ranges::unique(noted).begin(), noted.end());
+    noted.erase(std::unique(noted.begin(), noted.end()), noted.end());
 }
 
 }  // namespace espalier

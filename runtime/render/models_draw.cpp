@@ -110,7 +110,9 @@ ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& mate
 void Models::draw(DrawPass& pass, const Drawn& with) const {
     const bool quick = isQuick(with.shading);
     const Sampler& sampler = quick ? quickSampler_ : sampler_;
-    for (const auto& [index, model] : models_) {
+    for (const auto& entry : models_) {
+        const uint32_t index = entry.first;  // clang 14 hands no structured binding to a lambda
+        const Model& model = entry.second;
         if (!model.seen || (with.drawnOnly && model.groundOnly)) continue;
         pass.setVertices(model.vertices);
         pass.setIndices(model.indices);
@@ -151,7 +153,9 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
 
 void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame,
                        bool glassApart) const {
-    for (const auto& [index, model] : models_) {
+    for (const auto& entry : models_) {
+        const uint32_t index = entry.first;  // clang 14 hands no structured binding to a lambda
+        const Model& model = entry.second;
         if (!model.seen || model.groundOnly) continue;
         pass.setVertices(model.vertices);
         pass.setIndices(model.indices);

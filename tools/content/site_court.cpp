@@ -26,14 +26,14 @@ float courtSink(vec2 p) {
 
 // Short grass in the court and around it, thinner farther away, none on bare earth; clover in its patches.
 void Layout::turf() {
-    constexpr float kCell = 0.29f, kReach = 15;
-    const int cells = int(kReach / kCell);
+    constexpr float kCell = 0.29f, kTurfReach = 15;
+    const int cells = int(kTurfReach / kCell);
     for (int y = -cells; y <= cells; ++y)
         for (int x = -cells; x <= cells; ++x) {
             const uint32_t i = uint32_t((y + cells) * (2 * cells + 1) + x + cells);
             const vec2 p = kCourt + kCell * (vec2(x, y) + 0.9f * vec2(random01(i, 191), random01(i, 192)));
             const bool court = Plan::toCourt(p) < 0.1f;
-            const float thin = glm::distance(p, kCourt) / kReach;
+            const float thin = glm::distance(p, kCourt) / kTurfReach;
             const bool grows = court ? grassShare(p) > 0.35f && footDistance(p) > 0.2f
                                      : thin + 0.5f * noise(p / 1.9f, 193) < 0.95f && plan_.trodden(p) < -0.2f;
             const Lawn lawn = lawnAt(p);

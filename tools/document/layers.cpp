@@ -118,12 +118,14 @@ bool Document::carryOut(const StrokeEnd&, std::vector<Action>& back, std::string
         return false;
     }
     bool good = true, changed = false;
-    for (const auto& [channel, stroke] : std::exchange(strokes_, {})) {
+    for (const auto& ended : std::exchange(strokes_, {})) {
+        const auto& [channel, stroke] = ended;
+        const EspStroke id = stroke;  // clang 14 hands no structured binding to a lambda
         good = !failed(espEndStroke(context_, stroke), error) && good;
         changed = changed || espStrokeBytes(context_, stroke) > 0;
         back.push_back(keepStroke(stroke, channel, [&](int surface) {
             const EspSurface town{};
-            return espStrokePainted(context_, stroke, surface < 0 ? town : scene_.surfaces[size_t(surface)].id) != 0;
+            return espStrokePainted(context_, id, surface < 0 ? town : scene_.surfaces[size_t(surface)].id) != 0;
         }));
     }
     if (good && changed) return true;

@@ -1,5 +1,4 @@
 // Plants that stand as they are, and branches that are cut away for good.
-#include <ranges>
 
 #include "tools/document/document.hpp"
 #include "tools/scene/hash.hpp"
@@ -75,7 +74,8 @@ bool Document::carryOut(const RestoreFrozen& action, std::vector<Action>& back, 
     RestoreFrozen before;
     bool good = true;
     // The last first: a seed that was named twice gets what it had at first.
-    for (const auto& [key, plant, unread] : std::views::reverse(action.plants)) {
+    for (auto at = action.plants.rbegin(); at != action.plants.rend(); ++at) {
+        const auto& [key, plant, unread] = *at;
         scene::Seed& seed = scene_.seeds[indexOf(key)];
         good = !failed(plant ? espFreezeAs(context_, seed.planted, plant->data(), plant->size())
                              : espFreezePlant(context_, seed.planted, 0),
