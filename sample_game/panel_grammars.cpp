@@ -112,7 +112,7 @@ void grammarsPanel(Workspace& work) {
     const bool houses = work.tool == Tool::houses;
     std::vector<uint32_t> order(work.scene().grammars.size());
     std::iota(order.begin(), order.end(), 0u);
-    if (houses) std::ranges::stable_partition(order, [&](uint32_t i) { return makesRoofs(work, i); });
+    if (houses) std::stable_partition(order.begin(), order.end(), [&](uint32_t i) { return makesRoofs(work, i); });
     std::vector<uint32_t> shown;
     for (uint32_t i : order) {
         const auto& grammar = work.scene().grammars[i];

@@ -49,7 +49,7 @@ std::vector<Layer> layersOf(const Workspace& work) {
     for (const auto& known : espalier::scene::townLayers(context))
         for (Layer& layer : layers)
             layer.painted |= layer.town && channelsOf(work.scene(), layer.name)[0] == known.name && known.painted;
-    std::ranges::stable_partition(layers, [](const Layer& layer) { return !layer.town; });
+    std::stable_partition(layers.begin(), layers.end(), [](const Layer& layer) { return !layer.town; });
     return layers;
 }
 

@@ -32,7 +32,7 @@ std::vector<Remark> remarksOf(const espalier::scene::LoadedGrammar& grammar) {
         std::istringstream lines(*text);
         for (std::string line; std::getline(lines, line);) remarks.push_back(remarkOf(line, grammar.file));
     }
-    std::ranges::stable_partition(remarks, [](const Remark& remark) { return !remark.warning; });
+    std::stable_partition(remarks.begin(), remarks.end(), [](const Remark& remark) { return !remark.warning; });
     return remarks;
 }
 

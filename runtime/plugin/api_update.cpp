@@ -19,6 +19,7 @@ void noteSurfaces(EspContext& context) {
     if (context.nodes.carriers.due()) {
         std::vector<bool> carriers(context.surfaceSlots());
         context.seeds.forEach([&](uint32_t, const PlantedSeed& seed) {
+            if (beginsPattern(context, seed)) return;
             carriers[instanceOf(seed.surface)] = true;
             if (seed.frozen)
                 for (uint32_t instance : seed.frozenOn) carriers[instance] = true;
