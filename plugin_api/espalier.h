@@ -13,7 +13,11 @@
  * Units: metres, radians, right-handed world space with Y up; colours linear unless said otherwise.
  * Ids: plain values, zero-initialised is no object; an id whose object was destroyed is refused, never reused. An id of
  * another context is refused too, while no more than 64 contexts live in the process.
- * Defs: begin with espDefault...(), so that new fields get sensible values; those that have none, with zeros.
+ * Structs that begin with structSize may get further fields in later versions. structSize is sizeof of the struct as the
+ * host's header has it: C++ sets it, in C write `EspStats stats = {.structSize = sizeof stats};`. The library reads and
+ * writes nothing beyond it. What an older header lacks has its default. Other structs never change.
+ * Defs: begin with espDefault...(), so that each field gets a sensible value; those that have no such function, with zeros.
+ * Pointers in a def to further structs may be NULL where the field says what that means.
  */
 #ifndef ESPALIER_H
 #define ESPALIER_H
@@ -40,6 +44,15 @@ extern "C" {
 #define ESP_VERSION_MAJOR 0
 #define ESP_VERSION_MINOR 1
 #define ESP_VERSION_PATCH 0
+/* What espCreate is given: the version of the header that a host was compiled with. */
+#define ESP_VERSION ((uint32_t)ESP_VERSION_MAJOR << 22 | (uint32_t)ESP_VERSION_MINOR << 12 | (uint32_t)ESP_VERSION_PATCH)
+
+/* The first field of a struct that may grow. */
+#ifdef __cplusplus
+#define ESP_STRUCT_SIZE(Struct) uint32_t structSize = sizeof(Struct)
+#else
+#define ESP_STRUCT_SIZE(Struct) uint32_t structSize
+#endif
 
 typedef enum EspResult {
     ESP_OK = 0,
@@ -51,8 +64,11 @@ typedef enum EspResult {
     ESP_DEVICE_LOST = 5,        /* destroy the context and create it anew */
     ESP_OUT_OF_MEMORY = 6,
     ESP_STOPPED = 7,            /* who watches growth gave it up (espWatchGrowth) */
-    ESP_DRIVER_FAILED = 8       /* a call of the GPU's driver failed, and neither for want of memory nor because the device is
+    ESP_DRIVER_FAILED = 8,      /* a call of the GPU's driver failed, and neither for want of memory nor because the device is
                                    lost; espLastError names the result. It may work when it is tried again */
+    ESP_WRONG_VERSION = 9,      /* the host was compiled with a header that this library can't serve (espCreate) */
+    ESP_INTERNAL_ERROR = 10     /* a mistake of the library's own; espLastError says where. Destroy the context: what it holds
+                                   may be half done */
 } EspResult;
 
 typedef struct EspContext EspContext;
@@ -70,37 +86,63 @@ typedef void (*EspLogFn)(void* user, EspLogLevel level, const char* message);
 
 /* A host's Vulkan objects; handles as they are in vulkan.h. The device must have been created with the features that
  * espRequiredFeatures chains into a VkDeviceCreateInfo; its subgroups must vote, ballot and do arithmetic in compute, and its
- * uniform blocks hold 65,536 bytes. What the physical device lacks is named in espCreate's error. Espalier submits to `queue` only inside its functions; what it
+ * uniform blocks hold 65,536 bytes. The instance must have been made for Vulkan 1.3 or later. What is missing is named in espCreate's error. Espalier submits to `queue` only inside its functions; what it
  * submits waits for the frames before it that espDraw has recorded into, and later ones see what it wrote. The host keeps
  * all objects alive until espDestroy has returned. */
 typedef struct EspHostDevice {
+    ESP_STRUCT_SIZE(EspHostDevice);
+    uint32_t queueFamily;
     void* getInstanceProcAddr;   /* PFN_vkGetInstanceProcAddr */
     void* instance;              /* VkInstance */
     void* physicalDevice;        /* VkPhysicalDevice */
     void* device;                /* VkDevice */
     void* queue;                 /* VkQueue: graphics and compute */
-    uint32_t queueFamily;
     int debugUtils;              /* 1: VK_EXT_debug_utils is on: objects get names and passes labels */
-    int anisotropy;              /* 1: so is the feature samplerAnisotropy: what is seen at a grazing angle stays sharp */
+    const void* deviceInfo;      /* VkDeviceCreateInfo that `device` was made with, its chain too; read by espCreate only.
+                                    What it leaves out of what is required is named in espCreate's error. With the feature
+                                    samplerAnisotropy what is seen at a grazing angle stays sharp */
+    void* pipelineCache;         /* VkPipelineCache, in which pipelines are looked for and to which they are added, by the
+                                    context's functions on their thread; NULL: none */
 } EspHostDevice;
 
+/* How a context reads files where they don't lie on the disk: in an archive, in memory. `read` and `release` are called
+ * within the context's functions, on their thread; they must neither use the context nor throw. */
+typedef EspResult (*EspReadFileFn)(void* user, const char* path, const void** bytes, size_t* size);
+typedef void (*EspReleaseFileFn)(void* user, const void* bytes, size_t size);
+typedef struct EspFiles {
+    ESP_STRUCT_SIZE(EspFiles);
+    uint32_t reserved;           /* 0 */
+    void* user;
+    EspReadFileFn read;          /* Sets *bytes and *size to the whole file, which stays until it is released, and returns
+                                    ESP_OK; what else it returns is told as ESP_IO_FAILED. path: as the host gave it, or beside
+                                    that: roofs.glb and pieces.glb beside EspContextDef::terminals, included grammars
+                                    beside those that include them */
+    EspReleaseFileFn release;    /* after each ESP_OK of `read`, with what it gave, within the same function of the context */
+} EspFiles;
+
 typedef struct EspContextDef {
-    const EspHostDevice* host;   /* NULL: Espalier makes its own device */
+    ESP_STRUCT_SIZE(EspContextDef);
     int validation;              /* own device only: 1 turns the validation layer on where it is installed */
+    const EspHostDevice* host;   /* NULL: Espalier makes its own device */
     EspLogFn log;                /* of what a context does, from espCreate on until espDestroy has returned; NULL: warnings and
                                     errors go to stderr */
     void* logUser;
     const char* terminals;       /* path of the terminal meshes (terminals.glb), beside which towns look for roofs.glb; NULL:
-                                    in the library's content */
+                                    ../content/terminals.glb beside the library's folder, or where it has been installed,
+                                    and with `files` "terminals.glb" */
     const char* cacheFolder;     /* compiled rule maps are cached here, the 256 used last, and devices that have passed the
                                     self-check are remembered; NULL: no cache on disk */
     int skipSelfCheck;           /* 0: the first context on a device and driver grows and draws a small scene by shaders and
                                     compares it with what has to come out. espCreate then fails with ESP_NO_DEVICE, and
                                     names device and driver, where the driver runs our kernels wrongly. 1: it doesn't */
+    uint32_t reserved;           /* 0 */
+    const EspFiles* files;       /* all files but those of cacheFolder are read by these; NULL: from the disk */
 } EspContextDef;
 
-ESP_API EspContextDef espDefaultContextDef(void);
-ESP_API EspResult espCreate(const EspContextDef* def, EspContext** out);
+ESP_API EspResult espDefaultContextDef(EspContextDef* out);
+/* headerVersion: ESP_VERSION. The library serves hosts whose header is as old as it is or older, of the same major version,
+ * and before version 1.0 of the same minor one; else ESP_WRONG_VERSION. */
+ESP_API EspResult espCreate(uint32_t headerVersion, const EspContextDef* def, EspContext** out);
 /* Waits for the GPU, also for frames that the host has submitted to EspHostDevice::queue. What espDraw has recorded and isn't
  * submitted by then must never be. NULL is allowed. */
 ESP_API void espDestroy(EspContext* context);
@@ -120,7 +162,7 @@ ESP_API const char* const* espRequiredExtensions(uint32_t* count);
 /* Why the context's last call failed (NULL: this thread's last call without one, such as espCreate), several lines if several
  * mistakes were found. Ask right after it: the next call that returns an EspResult, even ESP_OK, begins with "". Never NULL. */
 ESP_API const char* espLastError(const EspContext* context);
-ESP_API const char* espVersion(void);                             /* "0.1.0"; static */
+ESP_API const char* espVersion(void);                             /* "0.1.0": the library's; static */
 ESP_API const char* espDeviceName(const EspContext* context);     /* lives as long as the context */
 
 /* ---- Surfaces ----------------------------------------------------------------------------------------------- */
@@ -131,6 +173,7 @@ typedef struct EspTransform { float rows[3][4]; } EspTransform;
 ESP_API EspTransform espIdentity(void);
 
 typedef struct EspSurfaceInfo {
+    ESP_STRUCT_SIZE(EspSurfaceInfo);
     float boundsMin[3], boundsMax[3];   /* world */
     uint32_t triangles, charts, levels;
     uint32_t resolution;                /* texels a side of the finest level */
@@ -149,6 +192,16 @@ ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const Es
 /* Likewise, of ground that something else draws, such as the walls of a town's houses: of it only ESP_VIEW_CHARTS and
  * ESP_VIEW_LAYER show anything, and it casts no shadow. */
 ESP_API EspResult espLoadGround(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
+typedef struct EspSurfaceDef {
+    ESP_STRUCT_SIZE(EspSurfaceDef);
+    int groundOnly;              /* 1: as by espLoadGround */
+    const char* name;            /* the file's path; with `bytes` only for messages, and may be NULL */
+    const void* bytes;           /* what espalier-bake wrote; NULL: it is read from the file */
+    size_t size;                 /* of `bytes` */
+    const EspTransform* place;   /* NULL: the identity */
+} EspSurfaceDef;
+/* espLoadSurface and espLoadGround, from memory too. */
+ESP_API EspResult espAddSurface(EspContext* context, const EspSurfaceDef* def, EspSurface* out);
 /* Puts a surface elsewhere, with its seeds and layers. In the next espUpdate contacts with other surfaces are found anew,
  * and plants grow again that can get to it from where they stand; others are left alone. Of a surface that touches no
  * other, neither before nor after, plants go along as they are, if it keeps its scale to the last bit (moves do, and
@@ -160,6 +213,7 @@ ESP_API EspResult espDestroySurface(EspContext* context, EspSurface surface);
 ESP_API EspResult espSurfaceInfo(const EspContext* context, EspSurface surface, EspSurfaceInfo* out);
 
 typedef struct EspHit {
+    ESP_STRUCT_SIZE(EspHit);
     EspSurface surface;
     float position[3], normal[3];   /* world */
     float uv[2];                    /* the walk's UV set */
@@ -207,6 +261,7 @@ ESP_API EspResult espReadLinks(EspContext* context, EspSurface surface, EspLink*
 
 /* At most 1,024 a context. All that grow plants together read at most 16 layers, each one of colours counted as three. */
 typedef struct EspGrammarDef {
+    ESP_STRUCT_SIZE(EspGrammarDef);
     const char* name;     /* for messages, usually the file's path; included files are looked for beside it */
     const char* text;
     size_t length;        /* bytes, up to 1 MiB */
@@ -215,10 +270,11 @@ typedef struct EspGrammarDef {
 typedef enum EspParamKind { ESP_PARAM_FLOAT = 0, ESP_PARAM_BOOL = 1, ESP_PARAM_COLOUR = 2 } EspParamKind;
 
 typedef struct EspParamInfo {
+    ESP_STRUCT_SIZE(EspParamInfo);
+    EspParamKind kind;
     const char* name;     /* these three strings live as long as the grammar and until it is compiled anew */
     const char* label;
     const char* unit;
-    EspParamKind kind;
     float value[3], initial[3];   /* colours use all three */
     float low, high;
 } EspParamInfo;
@@ -262,6 +318,7 @@ ESP_API EspResult espSetProps(EspContext* context, const char* models, const Esp
  * street's edge, 1 a metre inside of it, 0 a metre outside; green: trodden earth; blue: share of the sky that is
  * seen. Its outermost texels go on to the horizon. */
 typedef struct EspSiteDef {
+    ESP_STRUCT_SIZE(EspSiteDef);
     const uint8_t* rgba;         /* height rows of width texels, 1 to 8192 each; NULL: nothing lies there */
     uint32_t width, height;
     float low[2], high[2];       /* world x and z of its corners, metres */
@@ -274,6 +331,7 @@ typedef enum EspWalkMode { ESP_WALK_INTRINSIC = 0, ESP_WALK_PAPER = 1 } EspWalkM
 typedef enum EspTangentMode { ESP_TANGENT_STEM = 0, ESP_TANGENT_PAPER = 1 } EspTangentMode;
 
 typedef struct EspGrowDef {
+    ESP_STRUCT_SIZE(EspGrowDef);
     EspWalkMode walk;
     EspTangentMode tangents;
     uint32_t maxNodes;           /* growth stops there and says so; default 4,000,000 */
@@ -282,7 +340,7 @@ typedef struct EspGrowDef {
     int shadersOnly;             /* 1: by shaders on a software device too, where growth is native code of their text
                                     otherwise, with the same result; default 0 */
 } EspGrowDef;
-ESP_API EspGrowDef espDefaultGrowDef(void);
+ESP_API EspResult espDefaultGrowDef(EspGrowDef* out);
 ESP_API EspResult espSetGrow(EspContext* context, const EspGrowDef* def);   /* where it differs, all grows anew */
 
 /* Grows what changed since the last call. Does nothing, and costs nothing, if nothing did. A town and plants grow each for
@@ -300,13 +358,16 @@ ESP_API EspResult espUpdate(EspContext* context);
 typedef int (*EspGrowingFn)(void* user, uint64_t nodes);
 ESP_API EspResult espWatchGrowth(EspContext* context, EspGrowingFn growing, void* user);
 
+/* Zeros but for structSize aren't a camera: begin with espDefaultCamera or espFrameAll. */
 typedef struct EspCamera {
+    ESP_STRUCT_SIZE(EspCamera);
     float eye[3], target[3], up[3];   /* eye and target: two places */
     float fovY;                  /* radians, 0.001 to 3.1 */
     float nearPlane;             /* metres; the far plane is at infinity */
     float shift[2];              /* moves the picture right and up, in halves of the frame, as a shift lens does: 0.2
                                     makes room for a panel at the left */
 } EspCamera;
+ESP_API EspResult espDefaultCamera(EspCamera* out);
 
 typedef enum EspView {
     ESP_VIEW_SHADED = 0, ESP_VIEW_CHARTS = 1, ESP_VIEW_NORMALS = 2, ESP_VIEW_LOD = 3, ESP_VIEW_LAYER = 4,
@@ -315,6 +376,7 @@ typedef enum EspView {
 } EspView;
 
 typedef struct EspLook {         /* all numbers finite */
+    ESP_STRUCT_SIZE(EspLook);
     float sunDirection[3];       /* towards the sun */
     float sunColour[3], skyColour[3], groundColour[3];
     float exposure;              /* stops */
@@ -341,7 +403,7 @@ typedef struct EspLook {         /* all numbers finite */
     float groundLevel;           /* its height in the world, metres */
     int groundOvergrows;         /* 1: its grass grows over what of models lies almost as low, some 9 cm; default 1 */
 } EspLook;
-ESP_API EspLook espDefaultLook(void);
+ESP_API EspResult espDefaultLook(EspLook* out);
 /* For legends: the linear colour by which ESP_VIEW_DEPTH, ESP_VIEW_OVERDRAW, ESP_VIEW_LAYER, ESP_VIEW_LOD (levels, 0 the
  * finest) or ESP_VIEW_CHARTS (a chart's number) shows `amount`, and the amount from which on nothing changes. */
 ESP_API EspResult espViewColour(EspView view, float amount, float rgb[3], float* most);
@@ -356,8 +418,10 @@ ESP_API EspResult espFramesDone(EspContext* context, uint64_t framesDone);
  * The host draws with the camera of EspDrawDef; fovY is vertical, pixels are square. Sky, ground (the look's and the
  * town's) and ESP_VIEW_OVERDRAW are the host's business. Both images: one sample a pixel, usage SAMPLED besides that of an attachment. */
 typedef struct EspHostScene {
-    void* depthImage;            /* VkImage, in VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, left so */
+    ESP_STRUCT_SIZE(EspHostScene);
     uint32_t depthFormat;        /* VkFormat: any of depth; a stencil is left alone */
+    void* depthImage;            /* VkImage, in VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, left so */
+    uint32_t depthUsage;         /* VkImageUsageFlags that depthImage was made with: SAMPLED and DEPTH_STENCIL_ATTACHMENT */
     float depthAtInfinity;       /* the buffer holds depthAtInfinity + depthPerNearness / distance, the distance in metres */
     float depthPerNearness;      /*   along the view. Reversed, infinitely far: 0, near; from 0 at near to 1 at far: */
                                  /*   far / (far - near), -near * far / (far - near) */
@@ -378,20 +442,28 @@ typedef struct EspHostScene {
  * that frame reads. A host that stops drawing (a menu, a minimised window) need not tell: the next espUpdate or stroke submits
  * behind its last frame, and once that is done, so is the frame. */
 typedef struct EspDrawDef {
+    ESP_STRUCT_SIZE(EspDrawDef);
     uint32_t width, height;      /* 1 to 16384 */
-    EspCamera camera;
-    EspLook look;
+    const EspCamera* camera;     /* NULL: as espFrameAll's */
+    const EspLook* look;         /* NULL: as espDefaultLook's */
     void* commandBuffer;         /* VkCommandBuffer or NULL */
     void* colourImage;           /* VkImage */
     void* colourView;            /* VkImageView */
     uint32_t colourFormat;       /* VkFormat */
+    uint32_t colourUsage;        /* with a scene: VkImageUsageFlags that colourImage was made with, SAMPLED and
+                                    COLOR_ATTACHMENT */
     uint64_t frame;              /* with commandBuffer: the host's number of this frame, from 1, rising, the same for several
                                     views of one; one that is done is refused */
     uint64_t framesDone;         /* the GPU has finished all of the host's frames up to this one */
     const EspHostScene* scene;   /* with commandBuffer: what growth is drawn into; NULL: the whole picture is ours */
 } EspDrawDef;
-ESP_API EspDrawDef espDefaultDrawDef(void);
+ESP_API EspResult espDefaultDrawDef(EspDrawDef* out);
 ESP_API EspResult espDraw(EspContext* context, const EspDrawDef* def);
+/* Makes what frames like `def` need, so that the first of them waits for no compiler of the driver's: for when a level has
+ * been loaded, and grown by espUpdate. Of `def` count camera, look, colourFormat (0: Espalier's own image), and of its scene
+ * depthFormat and `surfaces`; handles may be NULL. Draws a small picture of its own, submits and waits. EspHostDevice's
+ * pipelineCache keeps what a driver compiles for the next run. */
+ESP_API EspResult espWarmUp(EspContext* context, const EspDrawDef* def);
 /* What espDraw has recorded last into a command buffer of the host's won't be submitted after all (a swapchain that was
  * lost, an error). The next frame relies on nothing of it and draws its shadows anew. Without this call Espalier takes it
  * that the commands have run, and pictures may be wrong until growth or the view changes. Its `frame` is done when framesDone
@@ -402,9 +474,10 @@ ESP_API EspResult espDropFrame(EspContext* context);
 ESP_API EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes);
 
 /* A camera that shows all surfaces and houses from the front right, and what is flat, as a town is, from further above. */
-ESP_API EspCamera espFrameAll(const EspContext* context);
+ESP_API EspResult espFrameAll(const EspContext* context, EspCamera* out);
 
 typedef struct EspStats {
+    ESP_STRUCT_SIZE(EspStats);
     uint32_t seeds, chunks, branches;
     uint64_t nodes, leaves;
     uint64_t polygons;           /* triangles of the growth at full detail, once it has been drawn */
@@ -415,6 +488,7 @@ typedef struct EspStats {
     uint32_t stopped;            /* branches that a limit ended: of depth, of recursion, or maxNodes */
     uint32_t deadEnds;           /* branches that found no direction that their condition allows */
     uint32_t validationMessages;
+    uint32_t cut;                /* times that maxNodes cut the growth that stands; 0: it didn't */
     double expandMs;             /* of the latest growth: GPU time, or wall time where it ran on the CPU */
     double emitMs, drawMs;       /* GPU time of the last picture's stages */
     double compileMs;            /* on the CPU: the grammar compiled last */
@@ -429,7 +503,6 @@ typedef struct EspStats {
     uint64_t drawnLeaves;        /* of the growth in the last frame */
     uint32_t enlarged;           /* times that the latest growth ran out of room and was given more, until it had enough */
     uint64_t reservedBytes;      /* taken from the device: totalBytes, and what is kept for what comes (espTrim) */
-    uint32_t cut;                /* times that maxNodes cut the growth that stands; 0: it didn't */
 } EspStats;
 ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
 
@@ -438,6 +511,7 @@ ESP_API EspResult espReadStats(EspContext* context, EspStats* out);
  * vertices: 16 bytes each, 3 floats position (world), octahedral 2×16 snorm normal; indices: 32 bit. The arrays belong
  * to the context and live until the next call that grows or materialises. */
 typedef struct EspTriangles {
+    ESP_STRUCT_SIZE(EspTriangles);
     const void* vertices;
     uint64_t vertexCount;
     const uint32_t* indices;

@@ -21,13 +21,14 @@ typedef enum EspLayerSpace {
 /* texels: height rows of width floats in [0,1], the first row at v = 0; 1 to 8192 each. What lies beyond is taken as the
  * nearer of 0 and 1, what isn't a number as 0. NULL removes the layer. */
 typedef struct EspLayerDef {
+    ESP_STRUCT_SIZE(EspLayerDef);
     EspSurface surface;
     const char* name;            /* as a grammar's `context` declares it */
     EspLayerSpace space;
     const float* texels;
     uint32_t width, height;
 } EspLayerDef;
-ESP_API EspLayerDef espDefaultLayerDef(void);
+ESP_API EspResult espDefaultLayerDef(EspLayerDef* out);
 ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
 
 /* A surface that was baked anew, as another resolution or after its model has changed: its charts lie elsewhere, places in
@@ -36,6 +37,7 @@ ESP_API EspResult espSetLayer(EspContext* context, const EspLayerDef* def);
  * espLastError(NULL) tells what went wrong. */
 typedef struct EspCarry EspCarry;
 typedef struct EspCarried {
+    ESP_STRUCT_SIZE(EspCarried);
     double fresh;                /* m² of the later bake's ground without a place of the earlier one near */
     double lost;                 /* m² that were painted above 0 and have no ground any more */
 } EspCarried;
@@ -69,8 +71,9 @@ typedef enum EspBrushMode {
 } EspBrushMode;
 
 struct EspBrush {
-    const char* layer;
+    ESP_STRUCT_SIZE(EspBrush);
     EspBrushMode mode;
+    const char* layer;
     float radius;                /* metres, 1e-6 to 1e6 */
     float value;                 /* 0 to 1 */
     float strength;              /* 0 to 1: of a dab, where it is strongest; dabs add up */
@@ -87,7 +90,7 @@ typedef struct EspDab {
     float pressure;              /* 0 to 1, scales the strength */
 } EspDab;
 
-ESP_API EspBrush espDefaultBrush(void);   /* paints 1, half a metre in radius, half strength, without a hard core or limits */
+ESP_API EspResult espDefaultBrush(EspBrush* out);   /* paints 1, half a metre in radius, half strength, without a hard core or limits */
 /* Several strokes may be open at a time, on unlike layers. */
 ESP_API EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out);
 /* On the GPU, applied in order; the next espUpdate and espDraw see it. At most 65,536 dabs. They go 32 together: where

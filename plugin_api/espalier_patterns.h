@@ -29,12 +29,13 @@ typedef struct EspFieldElement {
     float radius;                /* metres within which the element is felt; 0: a tenth of the surface's radius */
 } EspFieldElement;
 typedef struct EspFieldDef {
-    const EspFieldElement* elements;
+    ESP_STRUCT_SIZE(EspFieldDef);
     uint32_t elementCount;       /* up to 4,096 */
+    const EspFieldElement* elements;
     float drift[3];              /* world: the direction that the field leans to where no element says otherwise */
     float lean;                  /* how much it does; 0: not at all */
 } EspFieldDef;
-ESP_API EspFieldDef espDefaultFieldDef(void);   /* no elements; it leans down by 1 */
+ESP_API EspResult espDefaultFieldDef(EspFieldDef* out);   /* no elements; it leans down by 1 */
 
 /* The field of this name on one surface, which grammars of patterns read that declare a field so; a field of curvature is the
  * surface's own. def: copied; NULL: as espDefaultFieldDef says, which holds for every surface to begin with. Takes effect with
@@ -55,6 +56,7 @@ ESP_API const char* espFieldName(const EspContext* context, EspGrammar grammar, 
 /* ---- What has been placed ----------------------------------------------------------------------------------- */
 
 typedef struct EspPatternStats {
+    ESP_STRUCT_SIZE(EspPatternStats);
     uint32_t seeds;              /* that patterns begin at */
     uint32_t shapes;             /* symbols that were derived */
     uint32_t tried, standing;    /* pieces; sets of pieces that stand or fall together */

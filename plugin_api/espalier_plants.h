@@ -11,6 +11,7 @@ extern "C" {
 /* ---- Seeds -------------------------------------------------------------------------------------------------- */
 
 typedef struct EspSeedDef {
+    ESP_STRUCT_SIZE(EspSeedDef);
     EspGrammar grammar;
     const char* symbol;       /* start symbol; NULL: the grammar's first */
     float position[3];        /* world; the nearest place on a surface is taken; from bare material ground beside it */
@@ -18,7 +19,7 @@ typedef struct EspSeedDef {
     uint32_t number;          /* the seed's random number: seeds of unlike numbers grow unlike plants */
     uint32_t twin;            /* tells apart seeds of one number, 1 to 2^20; 0: the first that isn't planted yet */
 } EspSeedDef;
-ESP_API EspSeedDef espDefaultSeedDef(void);
+ESP_API EspResult espDefaultSeedDef(EspSeedDef* out);
 /* Up to 2^20 - 1 a context. ESP_INVALID_ARGUMENT: there is no surface, the grammar makes roofs, no rule grows from the symbol,
  * the twin is planted already, or a number isn't finite. */
 ESP_API EspResult espPlant(EspContext* context, const EspSeedDef* def, EspSeed* out);
@@ -26,9 +27,7 @@ ESP_API EspResult espRemoveSeed(EspContext* context, EspSeed seed);
 ESP_API EspResult espRemoveAllSeeds(EspContext* context);
 
 typedef struct EspSeedInfo {
-    EspSeedDef def;           /* as it was planted or last moved: planted by it again, the plant is the same to the bit, or,
-                                 if its surface was moved since, by rounding slightly another. symbol: "" or valid as long
-                                 as the seed: for later it is copied */
+    ESP_STRUCT_SIZE(EspSeedInfo);
     EspSurface surface;
     float position[3];        /* on the surface, world */
     float normal[3], direction[3];   /* unit, world; the direction is laid into the surface */
@@ -39,6 +38,9 @@ ESP_API uint32_t espSeedCount(const EspContext* context);
 /* In an order that doesn't change while no seed comes or goes. */
 ESP_API EspResult espSeedAt(const EspContext* context, uint32_t index, EspSeed* out);
 ESP_API EspResult espSeedInfo(const EspContext* context, EspSeed seed, EspSeedInfo* out);
+/* As it was planted or last moved: planted by it again, the plant is the same to the bit, or, if its surface was moved since,
+ * by rounding slightly another. symbol: "" or valid as long as the seed: for later it is copied. */
+ESP_API EspResult espSeedDef(const EspContext* context, EspSeed seed, EspSeedDef* out);
 /* To where it would be planted at `position`; its plant keeps its random numbers. Without ground near, it doesn't grow. */
 ESP_API EspResult espMoveSeed(EspContext* context, EspSeed seed, const float position[3], const float direction[3]);
 /* twin: as in EspSeedDef. */
@@ -56,11 +58,13 @@ ESP_API EspResult espSeedParam(const EspContext* context, EspSeed seed, const ch
 
 /* These look at what the last espUpdate grew. The first call after a growth reads it back, and waits for the GPU. */
 typedef struct EspPlantHit {
+    ESP_STRUCT_SIZE(EspPlantHit);
     EspSeed seed;
     uint64_t branch;          /* key: stays the same as long as the rules that led to the branch do */
     float position[3];        /* world */
     float distance;           /* along the ray, metres */
     uint32_t depth;           /* branches from the seed, 0: the seed's own */
+    uint32_t reserved;        /* 0 */
 } EspPlantHit;
 /* The branch that the ray meets first; ESP_INVALID_ARGUMENT if none, or if a surface hides it. */
 ESP_API EspResult espPickPlant(EspContext* context, const float origin[3], const float direction[3], EspPlantHit* out);
@@ -89,6 +93,7 @@ typedef enum EspBranchEnd {
 } EspBranchEnd;
 
 typedef struct EspPlantInfo {
+    ESP_STRUCT_SIZE(EspPlantInfo);
     uint32_t nodes;                            /* 0: nothing has grown from the seed */
     float boundsMin[3], boundsMax[3];          /* world, of its nodes; a seed without nodes: its own place */
     EspBranchEnd end;                          /* of the seed's own branch */
@@ -97,6 +102,7 @@ typedef struct EspPlantInfo {
 ESP_API EspResult espPlantInfo(EspContext* context, EspSeed seed, EspPlantInfo* out);
 
 typedef struct EspBranchInfo {
+    ESP_STRUCT_SIZE(EspBranchInfo);
     EspSeed seed;
     uint64_t parent;          /* the branch that it leaves from; at depth 0 the branch itself */
     uint32_t depth;           /* as in EspPlantHit */

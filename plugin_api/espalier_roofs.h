@@ -13,16 +13,17 @@ extern "C" {
  * context. text: GeoJSON with OpenStreetMap's tags, or a plan in metres (docs/roofs.md); features that can't be used are
  * named in warnings, the rest of the town stands. */
 typedef struct EspTownDef {
+    ESP_STRUCT_SIZE(EspTownDef);
+    EspGrammar grammar;      /* may be set later */
     const char* name;        /* for messages, usually the file's path */
     const char* text;
     size_t length;
-    EspGrammar grammar;      /* may be set later */
     float position[3];       /* world, metres: where the plan's origin stands */
     float turn;              /* radians, counterclockwise from above */
     int ground;              /* 1: level ground is drawn under the lowest wall, out to the horizon */
     float groundColour[3];   /* linear */
 } EspTownDef;
-ESP_API EspTownDef espDefaultTownDef(void);   /* where it was modelled, on ground */
+ESP_API EspResult espDefaultTownDef(EspTownDef* out);   /* where it was modelled, on ground */
 /* Replaces the town that there was. It grows in the next espUpdate. ESP_IO_FAILED: roofs.glb, beside the terminal meshes,
  * can't be read; ESP_INVALID_CONTENT: text has no town. What fails leaves the town that there was. */
 ESP_API EspResult espLoadTown(EspContext* context, const EspTownDef* def);
@@ -39,14 +40,15 @@ ESP_API EspResult espTownGrammar(const EspContext* context, EspGrammar* out);
  * The strokes above paint them too, those that the town's grammar reads or that were painted or set before, straight down
  * whatever the height, and undo it. */
 typedef struct EspTownInfo {
+    ESP_STRUCT_SIZE(EspTownInfo);
     uint32_t houses;
     float layerLow[2];       /* world x and z of the square's north-western corner */
     float layerSide;         /* metres */
     uint32_t layerTexels;    /* a side */
     float groundHeight;      /* world */
+    int geographic;          /* 1: `origin` is in degrees */
     double origin[2];        /* of the plan that EspTownDef::position places: degrees of longitude and latitude, or metres
                                 of a plan, which has an origin of its own if it lies more than 10 km from (0, 0) */
-    int geographic;          /* 1: they are degrees */
 } EspTownInfo;
 ESP_API EspResult espTownInfo(const EspContext* context, EspTownInfo* out);
 /* Replaces the whole layer, resampled from height rows of width floats in [0,1], 1 to 8192 each. out: an ended stroke to
@@ -83,6 +85,7 @@ typedef enum EspChimneys { ESP_CHIMNEYS_ANY = 0, ESP_CHIMNEYS_NONE = 1, ESP_CHIM
 
 /* How a house's roof is dressed, where that isn't left to the grammar. */
 typedef struct EspHouseLook {
+    ESP_STRUCT_SIZE(EspHouseLook);
     EspCovering covering;
     int coloured;            /* 1: the covering has this colour */
     float colour[3];         /* linear, 0 to 1, kept with 8 bits; read if it is coloured */
@@ -91,6 +94,7 @@ typedef struct EspHouseLook {
 } EspHouseLook;
 
 typedef struct EspHouseInfo {
+    ESP_STRUCT_SIZE(EspHouseInfo);
     const char* id;          /* the feature's; lives as long as the town */
     const char* note;        /* what couldn't be made as it was asked for, a line each; "": all was. Until the house changes */
     EspRoofShape shape;      /* as it was asked for */
@@ -100,11 +104,11 @@ typedef struct EspHouseInfo {
     uint32_t edgeCount;      /* edges with something of their own */
     float boundsMin[3], boundsMax[3];            /* world */
     uint32_t ringCount;      /* the outer ring and courtyards, in this order */
-    EspHouseLook look;
 } EspHouseInfo;
 
 ESP_API uint32_t espHouseCount(const EspContext* context);
 ESP_API EspResult espHouseInfo(const EspContext* context, uint32_t house, EspHouseInfo* out);
+ESP_API EspResult espHouseLook(const EspContext* context, uint32_t house, EspHouseLook* out);
 /* What stands: needless corners are gone, outer rings run counterclockwise seen from above, and edges count over these rings.
  * Corners in the plan, two floats each: world x and z. Room for EspHouseInfo::cornerCount pairs, edgeCount edges; either
  * may be NULL. */
@@ -116,6 +120,7 @@ ESP_API EspResult espHouseRings(const EspContext* context, uint32_t house, uint3
  * house's plan and from this alone. An outline that crosses itself or has no area is refused with ESP_INVALID_CONTENT, and
  * the house stands as it did. */
 typedef struct EspHouseDef {
+    ESP_STRUCT_SIZE(EspHouseDef);
     EspRoofShape shape;
     float slope;             /* 0: the shape's own; where that is the plan's shape, by the height that the plan gives the roof */
     float eaveHeight;        /* metres above the house's base; 0: as it is */
@@ -132,6 +137,7 @@ ESP_API EspResult espSetHouse(EspContext* context, uint32_t house, const EspHous
 ESP_API EspResult espResetHouse(EspContext* context, uint32_t house);
 
 typedef struct EspRoofStats {
+    ESP_STRUCT_SIZE(EspRoofStats);
     uint32_t houses, eaves;
     uint64_t tiles;              /* cells of all grids that stand */
     uint64_t clippedTiles;       /* those of them that an outline crosses */

@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "plugin_api/espalier.hpp"
 #include "sample_game/app_state.hpp"
 #include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
@@ -75,7 +76,7 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
         work_.redraw = true;
         return true;
     }
-    EspDrawDef draw = espDefaultDrawDef();
+    esp::DrawDef draw;
     draw.camera = work_.camera.camera();
     draw.look = work_.scene().look;
     draw.look.shadowsLag = 1;
@@ -89,7 +90,8 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
     }
     if (limiting_ && brushOf(*limiting_, brush, work_.error)) draw.look.viewBrush = &brush;
     // While the camera moves, or a stroke goes on, on a slow device, less detail.
-    const float scale = moving_.prepare(draw, moving && !last, work_.stats.drawMs, work_.layout.smallerWhileMoving);
+    const float scale =
+        moving_.prepare(draw.look, moving && !last, work_.stats.drawMs, work_.layout.smallerWhileMoving);
     const uint32_t left = uint32_t(std::lround(work_.shift() * float(frame->extent.width)));
     // What draws a view is made when it is first shown, which may take seconds: the frame before says so.
     const bool announces = viewsSeen_.insert(draw.look.view).second && viewsSeen_.size() > 1 && !last;

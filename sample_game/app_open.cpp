@@ -11,6 +11,7 @@
 #include <memory>
 #include <utility>
 
+#include "plugin_api/espalier.hpp"
 #include "sample_game/app_state.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/settings.hpp"
@@ -57,8 +58,8 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     device.queue = host_->queue();
     device.queueFamily = host_->queueFamily();
     device.debugUtils = host_->validation();
-    device.anisotropy = host_->anisotropy();
-    EspContextDef def = espDefaultContextDef();
+    device.deviceInfo = &host_->deviceInfo();
+    EspContextDef def = esp::defaults<EspContextDef>();
     def.host = &device;
     const std::string cache = espalier::scene::cacheFolder();
     if (!cache.empty()) def.cacheFolder = cache.c_str();
@@ -67,7 +68,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     };
     // The old document stays until the new one is there.
     EspContext* made = nullptr;
-    if (espCreate(&def, &made) != ESP_OK) {
+    if (espCreate(ESP_VERSION, &def, &made) != ESP_OK) {
         error = espLastError(nullptr);
         return false;
     }

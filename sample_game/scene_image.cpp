@@ -3,9 +3,11 @@
 
 #include <algorithm>
 
+#include "plugin_api/espalier.hpp"
+
 namespace sample {
 
-bool SceneImage::show(EspContext* context, const Frame& frame, EspDrawDef draw, uint32_t left, float scale,
+bool SceneImage::show(EspContext* context, const Frame& frame, esp::DrawDef draw, uint32_t left, float scale,
                       bool redraw) {
     const VkExtent2D room{frame.extent.width - left, frame.extent.height};
     drew_ = redraw || !fits(frame, left);

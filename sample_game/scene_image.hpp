@@ -3,6 +3,7 @@
 #include <string>
 
 #include "plugin_api/espalier.h"
+#include "plugin_api/espalier.hpp"
 #include "sample_game/host_image.hpp"
 
 namespace sample {
@@ -18,7 +19,7 @@ class SceneImage {
     // window's width that the picture leaves out, less than all; what they hold is undefined. scale: of the sides,
     // above 0, up to 1. redraw: false shows what was drawn last, if that had this size. Leaves the window's image in
     // COLOR_ATTACHMENT_OPTIMAL.
-    bool show(EspContext* context, const Frame& frame, EspDrawDef draw, uint32_t left, float scale, bool redraw);
+    bool show(EspContext* context, const Frame& frame, esp::DrawDef draw, uint32_t left, float scale, bool redraw);
     // Likewise, without the context: what was drawn last; black if that isn't of this size.
     void showAgain(const Frame& frame, uint32_t left);
     const std::string& error() const { return error_; }

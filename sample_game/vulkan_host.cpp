@@ -115,8 +115,8 @@ bool VulkanHost::makeDevice(const void* features, const char* const* extensions,
     vkEnumeratePhysicalDevices(instance_, &count, devices.data());
     std::stable_sort(devices.begin(), devices.end(),
                      [](VkPhysicalDevice a, VkPhysicalDevice b) { return preference(a) < preference(b); });
-    std::vector<const char*> names(extensions, extensions + extensionCount);
-    names.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    extensions_.assign(extensions, extensions + extensionCount);
+    extensions_.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     for (VkPhysicalDevice candidate : devices) {
         uint32_t families = 0;
         vkGetPhysicalDeviceQueueFamilyProperties(candidate, &families, nullptr);
@@ -134,18 +134,18 @@ bool VulkanHost::makeDevice(const void* features, const char* const* extensions,
             queue.pQueuePriorities = &priority;
             VkPhysicalDeviceFeatures have;
             vkGetPhysicalDeviceFeatures(candidate, &have);
-            auto wanted = *static_cast<const VkPhysicalDeviceFeatures2*>(features);
-            wanted.features.samplerAnisotropy = have.samplerAnisotropy;
-            VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
-            info.pNext = &wanted;
+            features_ = *static_cast<const VkPhysicalDeviceFeatures2*>(features);
+            features_.features.samplerAnisotropy = have.samplerAnisotropy;
+            deviceInfo_ = {VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+            deviceInfo_.pNext = &features_;
+            deviceInfo_.enabledExtensionCount = uint32_t(extensions_.size());
+            deviceInfo_.ppEnabledExtensionNames = extensions_.data();
+            VkDeviceCreateInfo info = deviceInfo_;
             info.queueCreateInfoCount = 1;
             info.pQueueCreateInfos = &queue;
-            info.enabledExtensionCount = uint32_t(names.size());
-            info.ppEnabledExtensionNames = names.data();
             // A device that lacks something says so, and the next one is tried.
             if (vkCreateDevice(candidate, &info, nullptr, &device_) != VK_SUCCESS) break;
             physicalDevice_ = candidate;
-            anisotropy_ = have.samplerAnisotropy != 0;
             overlaps_ = preference(candidate) < kSoftware;
             queueFamily_ = family;
             volkLoadDevice(device_);

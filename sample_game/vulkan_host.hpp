@@ -63,7 +63,7 @@ class VulkanHost {
     uint32_t queueFamily() const { return queueFamily_; }
     VkFormat format() const { return format_; }
     uint32_t validationMessages() const { return validationMessages_; }
-    bool anisotropy() const { return anisotropy_; }  // the device filters by angle
+    const VkDeviceCreateInfo& deviceInfo() const { return deviceInfo_; }  // features and extensions that it has
     bool validation() const { return messenger_ != VK_NULL_HANDLE; }
 
     // A memory type that has the wanted properties; false where the machine has none.
@@ -120,7 +120,9 @@ class VulkanHost {
     // Whether each frame is recorded while the last is drawn. On software devices only those that change nothing but
     // the camera, since native code changes in place what no frame under way reads. Showing a frame waits there until
     // it is drawn, so that is put off until the next has been recorded.
-    bool anisotropy_ = false;
+    VkPhysicalDeviceFeatures2 features_{};
+    std::vector<const char*> extensions_;
+    VkDeviceCreateInfo deviceInfo_{};  // leads to both; without queues
     bool overlaps_ = true;
     VkBuffer pictureBuffer_ = VK_NULL_HANDLE;  // of the latest copyPicture
     VkDeviceMemory pictureMemory_ = VK_NULL_HANDLE;

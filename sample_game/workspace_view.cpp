@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugin_api/espalier.hpp"
 #include "sample_game/workspace.hpp"
 
 namespace sample {
@@ -48,7 +49,7 @@ void Workspace::lookFrom(const EspCamera& from) {
 }
 
 void Workspace::frameAll() {
-    lookFrom(espFrameAll(context.get()));
+    lookFrom(esp::frameAll(context.get()));
     if (scene().surfaces.empty() && espHouseCount(context.get()) == 0) return;
     // A village around what plants grow on isn't what is worked on.
     const auto [low, high] = bounds();

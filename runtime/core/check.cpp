@@ -1,15 +1,12 @@
-// The end of the program for mistakes that no caller could answer.
+// What becomes of mistakes that no caller could answer.
 #include "runtime/core/check.hpp"
 
-#include <cstdio>
-#include <cstdlib>
+#include <string>
 
 namespace espalier {
 
 void fatal(std::string_view message, CodePlace where) {
-    std::fprintf(stderr, "%s:%d: %.*s\n", where.file, where.line, int(message.size()), message.data());
-    std::fflush(stderr);
-    std::abort();
+    throw InternalError(std::string(where.file) + ":" + std::to_string(where.line) + ": " + std::string(message));
 }
 
 }  // namespace espalier

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sstream>
+#include <stdexcept>
 #include <string_view>
 
 namespace espalier {
@@ -12,11 +13,17 @@ struct CodePlace {
     static CodePlace current(const char* file = __builtin_FILE(), int line = __builtin_LINE()) { return {file, line}; }
 };
 
-// Prints the message with its place and ends the program: for programming mistakes and broken devices, which no
-// caller could answer. Content mistakes and outside failures are a Result instead.
+// A mistake in our own text. what(): the place and the message.
+struct InternalError : std::logic_error {
+    using std::logic_error::logic_error;
+};
+
+// Throws an InternalError: for programming mistakes and broken devices, which no caller could answer. The C interface
+// makes a code of it, since a library mustn't end a host's process. Content mistakes and outside failures are a Result
+// instead.
 [[noreturn]] void fatal(std::string_view message, CodePlace where = CodePlace::current());
 
-// Checks that are worth having in release builds too. Prints both values.
+// Checks that are worth having in release builds too. The message has both values.
 template <class A, class B>
 void requireEqual(const A& a, const B& b, std::string_view what, CodePlace where = CodePlace::current()) {
     if (a == b) return;

@@ -42,13 +42,19 @@ bool liesIn(const fs::path& folder, const fs::path& file) {
     return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-}  // namespace
+Failure refusal(const fs::path& document, std::string_view name, const std::string& why) {
+    return Failure(document.string(),
+                   "'" + std::string(name.substr(0, std::min<size_t>(200, name.find('\0')))) + "' " + why);
+}
 
-Result<fs::path> placeBeside(const fs::path& document, std::string_view name) {
-    const auto refuse = [&](const std::string& why) {
-        return Failure(document.string(),
-                       "'" + std::string(name.substr(0, std::min<size_t>(200, name.find('\0')))) + "' " + why);
-    };
+const std::string& reach() {
+    static const std::string folder = "the folder " + std::to_string(kFoldersUp) + " folders above this file's";
+    return folder;
+}
+
+// The way from the document's folder to the file that it names.
+Result<fs::path> wayTo(const fs::path& document, std::string_view name) {
+    const auto refuse = [&](const std::string& why) { return refusal(document, name, why); };
     std::string text(name);
     std::ranges::replace(text, '\\', '/');
     if (text.empty() || text.find('\0') != std::string::npos) return refuse("is no file's name");
@@ -59,16 +65,28 @@ Result<fs::path> placeBeside(const fs::path& document, std::string_view name) {
     if (absolute) inside = inside.filename();
     if (!inside.has_filename() || inside.filename() == "." || inside.filename() == "..")
         return refuse("is no file's name");
-    const std::string most = std::to_string(kFoldersUp) + " folders above this file's";
-    if (foldersUp(inside) > kFoldersUp) return refuse("leads out of what may be read: the folder " + most);
+    if (foldersUp(inside) > kFoldersUp) return refuse("leads out of what may be read: " + reach());
+    return inside;
+}
 
+}  // namespace
+
+Result<fs::path> nameBeside(const fs::path& document, std::string_view name) {
+    Result<fs::path> way = wayTo(document, name);
+    if (!way) return way;
+    return (document.parent_path() / *way).lexically_normal();
+}
+
+Result<fs::path> placeBeside(const fs::path& document, std::string_view name) {
+    const Result<fs::path> way = wayTo(document, name);
+    if (!way) return way.failure();
     fs::path file = document.parent_path();
-    for (const fs::path& part : inside) file = entryOf(file, part);
+    for (const fs::path& part : way.value()) file = entryOf(file, part);
     std::error_code error;
     fs::path top = fs::canonical(document.has_parent_path() ? document.parent_path() : ".", error);
     for (int i = 0; i < kFoldersUp; ++i) top = top.parent_path();
     const fs::path behind = fs::weakly_canonical(fs::absolute(file, error), error);
-    if (!error && !liesIn(top, behind)) return refuse("is a link that leads out of the folder " + most);
+    if (!error && !liesIn(top, behind)) return refusal(document, name, "is a link that leads out of " + reach());
     return file;
 }
 

@@ -22,4 +22,8 @@ inline constexpr int kFoldersUp = 2;
 // A file that isn't there is no failure: reading it will be. Fails with the document's name and the reason.
 Result<std::filesystem::path> placeBeside(const std::filesystem::path& document, std::string_view name);
 
+// The same by names alone, without a look at the disk: for documents that lie elsewhere, such as in a host's archive.
+// Neither links nor capital letters are of account.
+Result<std::filesystem::path> nameBeside(const std::filesystem::path& document, std::string_view name);
+
 }  // namespace espalier

@@ -51,6 +51,9 @@ std::vector<std::string> standardTerminalKinds();
 // file names are added as they come.
 Result<TerminalData> readTerminals(const std::filesystem::path& path,
                                    std::vector<std::string> kinds = standardTerminalKinds());
+// The same of a file's bytes. name: for errors.
+Result<TerminalData> parseTerminals(std::span<const std::byte> file, const std::string& name,
+                                    std::vector<std::string> kinds = standardTerminalKinds());
 
 // Fills each LOD's error by measuring its distance to the finest one, where the file doesn't say when it is good
 // enough.

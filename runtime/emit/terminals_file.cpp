@@ -267,16 +267,21 @@ std::vector<std::string> standardTerminalKinds() {
 Result<TerminalData> readTerminals(const std::filesystem::path& path, std::vector<std::string> kinds) {
     Result<std::vector<std::byte>> bytes = readFile(path);
     if (!bytes) return bytes.failure();
+    return parseTerminals(*bytes, path.string(), std::move(kinds));
+}
+
+Result<TerminalData> parseTerminals(std::span<const std::byte> file, const std::string& name,
+                                    std::vector<std::string> kinds) {
     TerminalData data;
     data.kinds = std::move(kinds);
     try {
-        Reader(*bytes, data).read();
+        Reader(file, data).read();
     } catch (const Mistake& mistake) {
-        return Failure(path.string(), mistake.text);
+        return Failure(name, mistake.text);
     } catch (const json::exception& mistake) {
-        return Failure(path.string(), std::string("malformed glTF: ") + mistake.what());
+        return Failure(name, std::string("malformed glTF: ") + mistake.what());
     } catch (const std::bad_alloc&) {
-        return Failure(path.string(), "states sizes that do not fit into memory");
+        return Failure(name, "states sizes that do not fit into memory");
     }
     measureTerminalErrors(data);
     return data;

@@ -38,9 +38,11 @@ struct HostDevice {
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
     uint32_t queueFamily = 0;
-    bool debugUtils = false;         // VK_EXT_debug_utils is enabled on the instance: name objects, label passes
-    bool anisotropy = false;         // samplerAnisotropy is enabled on the device
-    MemorySource* memory = nullptr;  // null: our own pools
+    bool debugUtils = false;  // VK_EXT_debug_utils is enabled on the instance: name objects, label passes
+    // What the device was made with, read while it is adopted; null: it has all that is required, and no anisotropy.
+    const VkDeviceCreateInfo* made = nullptr;
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;  // what pipelines are looked for in, and added to; null: none
+    MemorySource* memory = nullptr;                  // null: our own pools
     Log log = logToStderr();
 };
 
@@ -82,6 +84,7 @@ class Device {
     VkPhysicalDevice physicalDevice() const { return physicalDevice_; }
     VkDevice handle() const { return device_; }
     VkQueue queue() const { return queue_; }
+    VkPipelineCache pipelineCache() const { return pipelineCache_; }  // a host's; null: there is none
     const DeviceInfo& info() const { return info_; }
     const Log& log() const { return log_; }
     MemorySource& memory() { return *memory_; }
@@ -152,6 +155,7 @@ class Device {
     VkPhysicalDevice physicalDevice_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
+    VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
     VkSemaphore timeline_ = VK_NULL_HANDLE;
     uint64_t submitted_ = 0;
     uint64_t completed_ = 0;  // as last known

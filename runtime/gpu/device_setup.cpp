@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <span>
 
 #include "runtime/core/hash.hpp"
 #include "runtime/core/platform.hpp"
@@ -240,7 +241,7 @@ struct DeviceSetup {
 
     Status finish(MemorySource* hostMemory) {
         if (auto missing = loadDeviceFunctions(d.vk_, d.vkInstance_.vkGetDeviceProcAddr, d.device_); !missing.empty())
-            return Failure(kPlace, "the device lacks " + missing + "; is its extension enabled?");
+            return Failure(kPlace, whyMissing(missing));
         if (!d.debugUtils_) {  // some loaders hand the functions out all the same
             d.vk_.vkSetDebugUtilsObjectNameEXT = nullptr;
             d.vk_.vkCmdBeginDebugUtilsLabelEXT = nullptr;
@@ -266,6 +267,15 @@ struct DeviceSetup {
         d.setName(VK_OBJECT_TYPE_SEMAPHORE, uint64_t(d.timeline_), "timeline");
         d.setName(VK_OBJECT_TYPE_QUEUE, uint64_t(d.queue_), "queue");
         return Done{};
+    }
+
+    // All but one of the functions are Vulkan 1.3's own, which the physical device has: examine() has asked for it.
+    static std::string whyMissing(const std::string& function) {
+        if (function == "vkCmdPushDescriptorSetKHR")
+            return "the device has no " + function + ": " + VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME + " isn't enabled";
+        return "the device has no " + function +
+               ", although its driver has Vulkan 1.3: the instance was made for an earlier version. "
+               "VkApplicationInfo::apiVersion has to be VK_API_VERSION_1_3 or later";
     }
 
     void describe() {
@@ -306,6 +316,19 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     return device;
 }
 
+namespace {
+
+// What a host's device was made without; empty: nothing that is required.
+std::string leftOut(const VkDeviceCreateInfo& made, const Features& enabled) {
+    std::vector<std::string> missing = missingFeatures(enabled);
+    const auto named = [](const char* name) { return name == std::string_view(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME); };
+    const std::span extensions(made.ppEnabledExtensionNames, made.enabledExtensionCount);
+    if (std::ranges::none_of(extensions, named)) missing.push_back(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME);
+    return joined(missing);
+}
+
+}  // namespace
+
 Result<std::unique_ptr<Device>> Device::adopt(const HostDevice& host) {
     if (!host.getInstanceProcAddr || !host.instance || !host.physicalDevice || !host.device || !host.queue)
         return Failure(kPlace, "the host's device is incomplete: a handle or vkGetInstanceProcAddr is null");
@@ -318,11 +341,16 @@ Result<std::unique_ptr<Device>> Device::adopt(const HostDevice& host) {
     d.queue_ = host.queue;
     d.info_.queueFamily = host.queueFamily;
     d.debugUtils_ = host.debugUtils;
-    d.info_.maxAnisotropy = host.anisotropy ? kMostAnisotropy : 1;
+    d.pipelineCache_ = host.pipelineCache;
+    Features enabled;
+    if (host.made) readFeatures(*host.made, enabled);
+    d.info_.maxAnisotropy = enabled.core.features.samplerAnisotropy ? kMostAnisotropy : 1;
     if (auto missing = loadInstanceFunctions(d.vkInstance_, host.getInstanceProcAddr, host.instance); !missing.empty())
         return Failure(kPlace, "the host's instance lacks " + missing);
     if (Candidate c = examine(d.vkInstance_, host.physicalDevice); !c.unfit.empty())
         return Failure(kPlace, "the host's device " + c.name + " " + c.unfit);
+    if (const std::string missing = host.made ? leftOut(*host.made, enabled) : ""; !missing.empty())
+        return Failure(kPlace, "the host's device was made without " + missing + " (VkDeviceCreateInfo)");
     const auto families = queueFamilies(d.vkInstance_, host.physicalDevice);
     constexpr VkQueueFlags need = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     if (host.queueFamily >= families.size() || (families[host.queueFamily].queueFlags & need) != need)

@@ -25,6 +25,8 @@ struct Features {
 
 // Names of the required features that `have` lacks.
 std::vector<std::string> missingFeatures(const Features& have);
+// What a device was made with, by any of the structs that say so.
+void readFeatures(const VkDeviceCreateInfo& made, Features& out);
 // Sets in `enable` what is required, and anisotropic filtering where it is there.
 void chooseFeatures(const Features& have, Features& enable);
 

@@ -184,7 +184,8 @@ Result<Program> Program::compute(Device& device, std::string_view shader, const 
     info.stage = module->stage(constants.info);
     info.layout = p.layout();
     VkPipeline pipeline = VK_NULL_HANDLE;
-    if (!device.succeeded(device.vk().vkCreateComputePipelines(device.handle(), nullptr, 1, &info, nullptr, &pipeline)))
+    if (!device.succeeded(device.vk().vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info,
+                                                               nullptr, &pipeline)))
         return gpuFailure(device, shader, "making its pipeline");
     p.pipeline_ = Owned(device, pipeline);
     device.setName(VK_OBJECT_TYPE_PIPELINE, uint64_t(pipeline), shader);
@@ -222,8 +223,8 @@ Result<Program> Program::graphics(Device& device, const GraphicsDesc& desc) {
     info.pDynamicState = &fixed.dynamic;
     info.layout = p.layout();
     VkPipeline pipeline = VK_NULL_HANDLE;
-    if (!device.succeeded(
-            device.vk().vkCreateGraphicsPipelines(device.handle(), nullptr, 1, &info, nullptr, &pipeline)))
+    if (!device.succeeded(device.vk().vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info,
+                                                                nullptr, &pipeline)))
         return gpuFailure(device, desc.name, "making its pipeline");
     p.pipeline_ = Owned(device, pipeline);
     device.setName(VK_OBJECT_TYPE_PIPELINE, uint64_t(pipeline), desc.name);

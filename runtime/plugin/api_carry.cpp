@@ -45,7 +45,12 @@ EspResult espCarryLayer(const EspCarry* carry, const float* texels, uint32_t wid
         std::ranges::transform(values, values.begin(), layerValue);
         const CarriedLayer layer = carry->match.carry({width, height, std::move(values)}, layerValue(fresh));
         std::ranges::copy(layer.layer.texels, out);
-        if (carried) *carried = {layer.fresh, layer.lost};
+        if (carried) {
+            EspCarried told{};
+            told.fresh = layer.fresh;
+            told.lost = layer.lost;
+            give("espCarryLayer", carried, told);
+        }
         return ESP_OK;
     });
 }

@@ -1,7 +1,4 @@
 // Creation, destruction and errors of contexts, and the tables that kernels read a scene by.
-#include <cstring>
-#include <fstream>
-
 #include "runtime/core/platform.hpp"
 #include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/features.hpp"
@@ -12,10 +9,15 @@
 namespace espalier {
 namespace {
 
-// Where the library (or the program that it is linked into) lies: its content is installed next to it.
+// Of the terminal meshes, seen from where the library lies (or the program that it is linked into): beside its folder,
+// as in the build and in a game's own folders, or where installing has put them.
 std::filesystem::path contentFolder() {
     const std::filesystem::path library = platform::fileOfCode(reinterpret_cast<const void*>(&espCreate));
-    return library.parent_path().parent_path() / "content";
+    std::error_code ignored;
+    std::filesystem::path beside = library.parent_path().parent_path() / "content";
+    std::filesystem::path installed = library.parent_path() / ESPALIER_INSTALLED_CONTENT;
+    const bool moved = !std::filesystem::exists(beside, ignored) && std::filesystem::exists(installed, ignored);
+    return moved ? installed.lexically_normal() : beside;
 }
 
 Log logInto(EspLogFn log, void* user) {
@@ -54,18 +56,31 @@ Result<std::unique_ptr<Device>> makeDevice(const EspContextDef& def, const Log& 
     host.queue = static_cast<VkQueue>(def.host->queue);
     host.queueFamily = def.host->queueFamily;
     host.debugUtils = def.host->debugUtils != 0;
-    host.anisotropy = def.host->anisotropy != 0;
+    host.made = static_cast<const VkDeviceCreateInfo*>(def.host->deviceInfo);
+    host.pipelineCache = reinterpret_cast<VkPipelineCache>(def.host->pipelineCache);
     host.log = log;
     return Device::adopt(host);
 }
 
-EspResult create(const EspContextDef& def, EspContext** out) {
-    if (def.host && (!def.host->getInstanceProcAddr || !def.host->instance || !def.host->physicalDevice ||
-                     !def.host->device || !def.host->queue))
+EspResult create(EspContextDef def, EspContext** out) {
+    const EspHostDevice host = takenOr("espCreate: host", def.host, EspHostDevice{});
+    if (def.host) def.host = &host;
+    if (def.host &&
+        (!host.getInstanceProcAddr || !host.instance || !host.physicalDevice || !host.device || !host.queue))
         return failAlone(ESP_INVALID_ARGUMENT, "espCreate: a handle of the host's device is null");
+    if (def.host && !host.deviceInfo)
+        return failAlone(ESP_INVALID_ARGUMENT,
+                         "espCreate: EspHostDevice::deviceInfo is null: it is the VkDeviceCreateInfo that the device "
+                         "was made with");
     auto context = std::make_unique<EspContext>();
     context->log = logInto(def.log, def.logUser);
-    context->grow = espDefaultGrowDef();
+    setDefaults(context->grow);
+    if (def.files) {
+        const EspFiles files = taken("espCreate: files", def.files);
+        if (!files.read || !files.release)
+            return failAlone(ESP_INVALID_ARGUMENT, "espCreate: EspFiles needs both functions, read and release");
+        context->files = Files(files);
+    }
     if (def.cacheFolder) context->cacheFolder = def.cacheFolder;
 
     Result<std::unique_ptr<Device>> device = makeDevice(def, context->log);
@@ -75,12 +90,14 @@ EspResult create(const EspContextDef& def, EspContext** out) {
         if (Status checked = checkDevice(*context->device, context->cacheFolder); !checked)
             return failAlone(gpuCode(*context, checked.failure()), checked.failure().text());
 
-    const std::filesystem::path terminals = def.terminals ? def.terminals : contentFolder() / "terminals.glb";
+    const std::filesystem::path folder = def.files ? std::filesystem::path() : contentFolder();
+    const std::filesystem::path terminals = def.terminals ? def.terminals : folder / "terminals.glb";
     context->roofMeshFile = std::filesystem::path(terminals).replace_filename("roofs.glb");
     context->patterns.file = std::filesystem::path(terminals).replace_filename("pieces.glb");
-    if (EspResult readable = checkReadable(context.get(), terminals.c_str()))
-        return failAlone(readable, "terminal meshes: " + context->error);
-    Result<TerminalData> meshes = readTerminals(terminals);
+    std::vector<std::byte> file;
+    if (EspResult unread = readWhole(context.get(), terminals.string(), file))
+        return failAlone(unread, "terminal meshes: " + context->error);
+    Result<TerminalData> meshes = parseTerminals(file, terminals.string());
     if (!meshes) return failAlone(ESP_INVALID_CONTENT, meshes.failure().text());
 
     Result<std::unique_ptr<Renderer>> renderer = Renderer::create(*context->device, std::move(*meshes));
@@ -93,6 +110,24 @@ EspResult create(const EspContextDef& def, EspContext** out) {
     context->growth = std::move(*growth);
     *out = context.release();
     return ESP_OK;
+}
+
+uint32_t majorOf(uint32_t version) {
+    return version >> 22;
+}
+uint32_t minorOf(uint32_t version) {
+    return version >> 12 & 0x3FF;
+}
+std::string versionText(uint32_t version) {
+    return std::to_string(majorOf(version)) + "." + std::to_string(minorOf(version)) + "." +
+           std::to_string(version & 0xFFF);
+}
+
+// Whether we know all that this header's hosts say. Before 1.0 each minor version may change what it likes.
+bool serves(uint32_t header) {
+    const bool alike =
+        majorOf(header) == ESP_VERSION_MAJOR && (ESP_VERSION_MAJOR > 0 || minorOf(header) == ESP_VERSION_MINOR);
+    return alike && header <= ESP_VERSION;
 }
 
 struct RequiredFeatures {
@@ -138,20 +173,11 @@ EspResult failWork(const EspContext* context, const Failure& failure) {
     return failure.ofDevice() ? failGpu(context, failure) : failContent(context, failure);
 }
 
-std::string whyUnreadable(const char* path) {
-    std::error_code error;
-    using Type = std::filesystem::file_type;
-    const Type type = std::filesystem::status(path, error).type();
-    if (type == Type::directory) return std::string(path) + ": is a folder";
-    if (type == Type::fifo || type == Type::socket) return std::string(path) + ": is a pipe, not a file";
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    return file ? "" : std::string(path) + ": can't be read: " + std::strerror(errno);
-}
-
-EspResult checkReadable(const EspContext* context, const char* path) {
-    const std::string why = whyUnreadable(path);
-    return why.empty() ? ESP_OK : fail(context, ESP_IO_FAILED, why);
+EspResult readWhole(const EspContext* context, const std::string& path, std::vector<std::byte>& bytes) {
+    Result<std::vector<std::byte>> file = context->files.read(path);
+    if (!file) return fail(context, ESP_IO_FAILED, file.failure().text());
+    bytes = std::move(*file);
+    return ESP_OK;
 }
 
 }  // namespace espalier
@@ -160,15 +186,19 @@ using namespace espalier;
 
 extern "C" {
 
-EspContextDef espDefaultContextDef(void) {
-    return EspContextDef{};
+EspResult espDefaultContextDef(EspContextDef* out) {
+    return giveDefaults("espDefaultContextDef", out);
 }
 
-EspResult espCreate(const EspContextDef* def, EspContext** out) {
+EspResult espCreate(uint32_t headerVersion, const EspContextDef* def, EspContext** out) {
     return guardedAlone([&] {
-        if (!def || !out) return failAlone(ESP_INVALID_ARGUMENT, "espCreate: null pointer");
+        if (!out) return failAlone(ESP_INVALID_ARGUMENT, "espCreate: null pointer");
         *out = nullptr;
-        return create(*def, out);
+        if (!serves(headerVersion))
+            return failAlone(ESP_WRONG_VERSION, "espCreate: the host was compiled with the header of version " +
+                                                    versionText(headerVersion) + ", which the library, version " +
+                                                    ESPALIER_VERSION + ", can't serve");
+        return create(taken("espCreate", def), out);
     });
 }
 

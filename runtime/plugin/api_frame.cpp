@@ -14,6 +14,40 @@
 #include "shaders/render/heat.h"
 
 namespace espalier {
+
+void setDefaults(EspLook& out) {
+    const Look look;
+    const auto set = [](float to[3], glm::vec3 from) { std::memcpy(to, &from, sizeof from); };
+    set(out.sunDirection, look.sunDirection);
+    set(out.sunColour, look.sunColor);
+    set(out.skyColour, look.skyColor);
+    set(out.groundColour, look.groundColor);
+    set(out.background, look.background);
+    set(out.horizon, look.horizon);
+    out.exposure = look.exposure;
+    out.shadows = look.shadows;
+    out.shadowsLag = look.shadowsLag;
+    out.quick = look.quick;
+    out.lodPixels = look.lodPixels;
+    out.leafPixels = look.leafPixels;
+    out.viewOpacity = look.layerOpacity;
+    out.groundOvergrows = 1;
+}
+
+void setDefaults(EspCamera& out) {
+    const Camera camera;
+    put(out.eye, camera.eye);
+    put(out.target, camera.target);
+    put(out.up, camera.up);
+    out.fovY = camera.fovY;
+    out.nearPlane = camera.nearPlane;
+}
+
+void setDefaults(EspDrawDef& def) {
+    def.width = 1280;
+    def.height = 720;
+}
+
 namespace {
 
 constexpr uint32_t kMostCharts = 65535;
@@ -27,19 +61,106 @@ bool finiteLook(const EspLook& look) {
     return true;
 }
 
-EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
-    if (!isAmong(def.look.view, ESP_VIEW_SHADED, ESP_VIEW_OVERDRAW))
+// A camera that shows all surfaces and houses; its contract is espFrameAll's.
+EspCamera frameAll(const EspContext& context) {
+    EspCamera camera{};
+    setDefaults(camera);
+    if (context.surfaces.size() == 0 && !context.town) return camera;
+    const auto eachBox = [&](auto&& take) {
+        for (uint32_t i = 0; i < espHouseCount(&context); ++i)
+            if (EspHouseInfo house; espHouseInfo(&context, i, &house) == ESP_OK)
+                take(vec(house.boundsMin), vec(house.boundsMax));
+        context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
+            take(vec(surface.info.boundsMin), vec(surface.info.boundsMax));
+        });
+    };
+    glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
+    eachBox([&](glm::vec3 from, glm::vec3 to) { low = glm::min(low, from), high = glm::max(high, to); });
+    const glm::vec3 size = high - low;
+    const float radius = std::max(glm::length(size) * .5f, 1e-4f);
+    camera.fovY = .6f;
+    // What is flat, such as a town, is seen from further above, over what stands at its rim.
+    const float flatness = size.y / std::max({size.x, size.z, 1e-4f});
+    const glm::vec3 towards =
+        glm::normalize(glm::vec3(.55f, glm::mix(.6f, .2f, glm::smoothstep(.1f, .5f, flatness)), 1));
+    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), towards));
+    const glm::vec3 up = glm::cross(towards, right);
+    // So far away that every corner is nearly within a frame of 4:3.
+    const float tangent = std::tan(camera.fovY * .5f) * .96f;
+    const glm::vec3 centre = (low + high) * .5f;
+    float distance = radius;
+    eachBox([&](glm::vec3 from, glm::vec3 to) {
+        for (int i = 0; i < 8; ++i) {
+            const glm::vec3 c = glm::mix(from, to, glm::vec3(i & 1, i >> 1 & 1, i >> 2 & 1)) - centre;
+            const float across = std::max(std::abs(glm::dot(c, up)), std::abs(glm::dot(c, right)) * .75f);
+            distance = std::max(distance, glm::dot(c, towards) + across / tangent);
+        }
+    });
+    const glm::vec3 eye = centre + towards * distance;
+    std::memcpy(camera.eye, &eye, sizeof camera.eye);
+    std::memcpy(camera.target, &centre, sizeof camera.target);
+    camera.nearPlane = std::min(radius * .005f, .1f);  // within a town one stands on its streets
+    return camera;
+}
+
+// What espDraw is asked for, with all that the def leads to. Not copyable: the def leads to the rest.
+struct Wanted {
+    EspDrawDef def;
+    EspCamera camera{};
+    EspLook look{};
+    EspBrush brush{};
+    EspHostScene scene{};
+
+    Wanted(const EspContext& context, const EspDrawDef* given) : def(taken("espDraw", given)) {
+        camera = def.camera ? taken("espDraw: camera", def.camera) : frameAll(context);
+        setDefaults(look);
+        look = takenOr("espDraw: look", def.look, look);
+        if (look.viewBrush) {
+            brush = taken("espDraw: viewBrush", look.viewBrush);
+            look.viewBrush = &brush;
+        }
+        if (def.scene) {
+            scene = taken("espDraw: scene", def.scene);
+            def.scene = &scene;
+        }
+    }
+    Wanted(const Wanted&) = delete;
+    Wanted& operator=(const Wanted&) = delete;
+};
+
+// What the images of a host's scene were made without; null: nothing that is needed.
+const char* usageMissing(VkImageUsageFlags colour, VkImageUsageFlags depth) {
+    if (!(depth & VK_IMAGE_USAGE_SAMPLED_BIT)) return "depthUsage lacks VK_IMAGE_USAGE_SAMPLED_BIT";
+    if (!(depth & VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT))
+        return "depthUsage lacks VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT";
+    if (!(colour & VK_IMAGE_USAGE_SAMPLED_BIT)) return "colourUsage lacks VK_IMAGE_USAGE_SAMPLED_BIT";
+    if (!(colour & VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT)) return "colourUsage lacks VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT";
+    return nullptr;
+}
+
+// What doesn't depend on where a frame is drawn.
+EspResult checkLook(const EspContext* context, const Wanted& wanted) {
+    const auto& [def, camera, look, brush, scene] = wanted;
+    if (!isAmong(look.view, ESP_VIEW_SHADED, ESP_VIEW_OVERDRAW))
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: no such view");
     if (def.width < 1 || def.height < 1 || def.width > kMaxFrameSide || def.height > kMaxFrameSide)
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a frame is 1 to 16384 pixels wide and high");
-    for (const float* v : {def.camera.eye, def.camera.target, def.camera.up})
+    for (const float* v : {camera.eye, camera.target, camera.up})
         if (!finite(v)) return fail(context, ESP_INVALID_ARGUMENT, "espDraw: the camera is not finite");
-    if (!finiteLook(def.look))
-        return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a number of the look is not finite");
-    if (!(std::abs(def.camera.shift[0]) < 100) || !(std::abs(def.camera.shift[1]) < 100) ||
-        !(def.camera.fovY >= 0.001f && def.camera.fovY <= 3.1f) || !(def.camera.nearPlane > 0) ||
-        vec(def.camera.eye) == vec(def.camera.target))
+    if (!std::isfinite(camera.fovY) || !std::isfinite(camera.nearPlane) || !std::isfinite(camera.shift[0]) ||
+        !std::isfinite(camera.shift[1]))
+        return fail(context, ESP_INVALID_ARGUMENT, "espDraw: the camera is not finite");
+    if (!finiteLook(look)) return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a number of the look is not finite");
+    if (!(std::abs(camera.shift[0]) < 100) || !(std::abs(camera.shift[1]) < 100) ||
+        !(camera.fovY >= 0.001f && camera.fovY <= 3.1f) || !(camera.nearPlane > 0) ||
+        vec(camera.eye) == vec(camera.target))
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: the camera looks at nothing");
+    return ESP_OK;
+}
+
+EspResult checkDraw(const EspContext* context, const Wanted& wanted) {
+    if (EspResult bad = checkLook(context, wanted)) return bad;
+    const auto& [def, camera, look, brush, scene] = wanted;
     if (def.commandBuffer && (!def.colourImage || !def.colourView || !def.frame))
         return fail(context, ESP_INVALID_ARGUMENT,
                     "espDraw: with a command buffer, colourImage, colourView and frame are needed");
@@ -47,14 +168,16 @@ EspResult checkDraw(const EspContext* context, const EspDrawDef& def) {
         return fail(context, ESP_INVALID_ARGUMENT,
                     "espDraw: colourFormat " + std::to_string(def.colourFormat) +
                         " is none that a frame is drawn into; espalier.h lists them");
-    if (def.scene &&
-        (!def.commandBuffer || !def.scene->depthImage || !isDepthFormat(VkFormat(def.scene->depthFormat)) ||
-         !std::isfinite(def.scene->depthAtInfinity) || !std::isfinite(def.scene->depthPerNearness) ||
-         def.scene->depthPerNearness == 0 || def.look.view == ESP_VIEW_OVERDRAW))
+    if (def.scene && (!def.commandBuffer || !scene.depthImage || !isDepthFormat(VkFormat(scene.depthFormat)) ||
+                      !std::isfinite(scene.depthAtInfinity) || !std::isfinite(scene.depthPerNearness) ||
+                      scene.depthPerNearness == 0 || look.view == ESP_VIEW_OVERDRAW))
         return fail(
             context, ESP_INVALID_ARGUMENT,
             "espDraw: a scene needs a command buffer, a depth image of a format with depth, a way from distance "
             "to depth, and no view of overdraw");
+    if (const char* missing = def.scene ? usageMissing(def.colourUsage, scene.depthUsage) : nullptr)
+        return fail(context, ESP_INVALID_ARGUMENT,
+                    std::string("espDraw: the scene's images can't be read and drawn into: ") + missing);
     if (def.commandBuffer && def.frame <= std::max(def.framesDone, context->device->hostFrame()))
         return fail(context, ESP_INVALID_ARGUMENT,
                     "espDraw: frame " + std::to_string(def.frame) + " is done already: frames are numbered rising");
@@ -112,31 +235,40 @@ EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
     return ESP_OK;
 }
 
-EspResult draw(EspContext& context, const EspDrawDef& def) {
-    if (EspResult bad = checkDraw(&context, def)) return bad;
-    DrawInputs inputs;
-    if (EspResult bad = makeLook(context, def.look, inputs.look)) return bad;
+// What a frame as it is wanted draws.
+EspResult findInputs(EspContext& context, const Wanted& wanted, DrawInputs& inputs) {
+    const auto& [def, camera, look, brush, scene] = wanted;
+    if (EspResult bad = makeLook(context, look, inputs.look)) return bad;
     Status tables = context.refreshTables();
     if (!tables) return failGpu(&context, tables.failure());
     inputs.growth = context.growth->view();
     if (context.town) {
         inputs.roofs = &context.town->view;
         inputs.ground = context.town->ground;
-        const bool shows = def.look.view == ESP_VIEW_LAYER && def.look.viewLayer;
-        context.town->view.shownLayer = shownTownLayer(context, shows ? def.look.viewLayer : "");
+        const bool shows = look.view == ESP_VIEW_LAYER && look.viewLayer;
+        context.town->view.shownLayer = shownTownLayer(context, shows ? look.viewLayer : "");
     }
-    if (def.look.ground) {
+    if (look.ground) {
         inputs.ground.drawn = true;
-        inputs.ground.height = def.look.groundLevel;
-        inputs.ground.overgrows = def.look.groundOvergrows != 0;
+        inputs.ground.height = look.groundLevel;
+        inputs.ground.overgrows = look.groundOvergrows != 0;
     }
     if (def.scene) inputs.ground.drawn = false;  // the ground of a host's scene is the host's
     inputs.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
     const std::vector<Version> placed = context.carriersPlaced();
     inputs.placed = placed;
     inputs.layers = addressOf<LayerBuf>(context.layerTable);
-    inputs.camera = {vec(def.camera.eye), vec(def.camera.target), vec(def.camera.up),
-                     def.camera.fovY,     def.camera.nearPlane,   {def.camera.shift[0], def.camera.shift[1]}};
+    inputs.camera = {vec(camera.eye), vec(camera.target), vec(camera.up),
+                     camera.fovY,     camera.nearPlane,   {camera.shift[0], camera.shift[1]}};
+    return ESP_OK;
+}
+
+EspResult draw(EspContext& context, const Wanted& wanted) {
+    if (EspResult bad = checkDraw(&context, wanted)) return bad;
+    DrawInputs inputs;
+    if (EspResult bad = findInputs(context, wanted, inputs)) return bad;
+    const EspDrawDef& def = wanted.def;
+    const EspHostScene& scene = wanted.scene;
     DrawTarget target;
     target.width = def.width;
     target.height = def.height;
@@ -162,8 +294,8 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
     target.view = reinterpret_cast<VkImageView>(def.colourView);
     target.format = VkFormat(def.colourFormat);
     if (def.scene)
-        target.host = {reinterpret_cast<VkImage>(def.scene->depthImage), VkFormat(def.scene->depthFormat),
-                       def.scene->depthAtInfinity, def.scene->depthPerNearness, def.scene->surfaces != 0};
+        target.host = {reinterpret_cast<VkImage>(scene.depthImage), VkFormat(scene.depthFormat), scene.depthAtInfinity,
+                       scene.depthPerNearness, scene.surfaces != 0};
     // Espalier's image is of the size drawn last, and what a scene is composed in.
     if (def.scene || def.width != context.pictureWidth || def.height != context.pictureHeight)
         context.hasPicture = false;
@@ -171,6 +303,51 @@ EspResult draw(EspContext& context, const EspDrawDef& def) {
         Commands::into(*context.device, reinterpret_cast<VkCommandBuffer>(def.commandBuffer), def.frame);
     Status drawn = context.renderer->draw(commands, inputs, target);
     return drawn ? ESP_OK : failGpu(&context, drawn.failure());
+}
+
+// Draws a small picture as it is wanted, into images that nobody looks at.
+EspResult warmUp(EspContext& context, const Wanted& wanted) {
+    constexpr uint32_t kSide = 32;
+    if (EspResult bad = checkLook(&context, wanted)) return bad;
+    const EspHostScene& scene = wanted.scene;
+    const VkFormat format = VkFormat(wanted.def.colourFormat);
+    const bool hosted = wanted.def.scene != nullptr;
+    if ((format != VK_FORMAT_UNDEFINED && !isHostPicture(format)) ||
+        (hosted && (format == VK_FORMAT_UNDEFINED || !isDepthFormat(VkFormat(scene.depthFormat)))))
+        return fail(&context, ESP_INVALID_ARGUMENT, "espWarmUp: frames are drawn into no such formats");
+    DrawInputs inputs;
+    if (EspResult bad = findInputs(context, wanted, inputs)) return bad;
+    DrawTarget target;
+    target.width = target.height = kSide;
+    ImageDesc desc{.name = "warm-up", .format = format, .width = kSide, .height = kSide};
+    desc.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    Image colour, depth;
+    Result<Commands> commands = Commands::begin(*context.device, "warm-up");
+    if (!commands) return failGpu(&context, commands.failure());
+    if (format != VK_FORMAT_UNDEFINED) {
+        if (Status made = assign(colour, Image::create(*context.device, desc)); !made)
+            return failGpu(&context, made.failure());
+        commands->transition(colour, ImageState::colorTarget, true);
+        target.image = colour.handle();
+        target.view = colour.view();
+        target.format = format;
+    }
+    if (hosted) {
+        desc.format = VkFormat(scene.depthFormat);
+        desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+        if (Status made = assign(depth, Image::create(*context.device, desc)); !made)
+            return failGpu(&context, made.failure());
+        commands->transition(depth, ImageState::depthTarget, true);
+        target.host = {depth.handle(), desc.format, 0, inputs.camera.nearPlane, scene.surfaces != 0};
+    }
+    context.hasPicture = false;
+    Status drawn = context.renderer->draw(*commands, inputs, target);
+    if (!drawn) return failGpu(&context, drawn.failure());
+    if (Status finished = commands->finish(); !finished) {
+        context.renderer->forget();
+        return failGpu(&context, finished.failure());
+    }
+    return ESP_OK;
 }
 
 EspStats gather(const EspContext& context) {
@@ -220,25 +397,12 @@ using namespace espalier;
 
 extern "C" {
 
-EspLook espDefaultLook(void) {
-    const Look look;
-    EspLook out{};
-    const auto set = [](float to[3], glm::vec3 from) { std::memcpy(to, &from, sizeof from); };
-    set(out.sunDirection, look.sunDirection);
-    set(out.sunColour, look.sunColor);
-    set(out.skyColour, look.skyColor);
-    set(out.groundColour, look.groundColor);
-    set(out.background, look.background);
-    set(out.horizon, look.horizon);
-    out.exposure = look.exposure;
-    out.shadows = look.shadows;
-    out.shadowsLag = look.shadowsLag;
-    out.quick = look.quick;
-    out.lodPixels = look.lodPixels;
-    out.leafPixels = look.leafPixels;
-    out.viewOpacity = look.layerOpacity;
-    out.groundOvergrows = 1;
-    return out;
+EspResult espDefaultLook(EspLook* out) {
+    return giveDefaults("espDefaultLook", out);
+}
+
+EspResult espDefaultCamera(EspCamera* out) {
+    return giveDefaults("espDefaultCamera", out);
 }
 
 EspResult espViewColour(EspView view, float amount, float rgb[3], float* most) {
@@ -272,25 +436,16 @@ EspResult espViewColour(EspView view, float amount, float rgb[3], float* most) {
     });
 }
 
-EspDrawDef espDefaultDrawDef(void) {
-    EspDrawDef def{};
-    def.width = 1280;
-    def.height = 720;
-    const Camera camera;
-    std::memcpy(def.camera.eye, &camera.eye, sizeof def.camera.eye);
-    std::memcpy(def.camera.target, &camera.target, sizeof def.camera.target);
-    std::memcpy(def.camera.up, &camera.up, sizeof def.camera.up);
-    def.camera.fovY = camera.fovY;
-    def.camera.nearPlane = camera.nearPlane;
-    def.look = espDefaultLook();
-    return def;
+EspResult espDefaultDrawDef(EspDrawDef* out) {
+    return giveDefaults("espDefaultDrawDef", out);
 }
 
 EspResult espDraw(EspContext* context, const EspDrawDef* def) {
-    return guarded(context, [&] {
-        if (!def) return fail(context, ESP_INVALID_ARGUMENT, "espDraw: null pointer");
-        return draw(*context, *def);
-    });
+    return guarded(context, [&] { return draw(*context, Wanted(*context, def)); });
+}
+
+EspResult espWarmUp(EspContext* context, const EspDrawDef* def) {
+    return guarded(context, [&] { return warmUp(*context, Wanted(*context, def)); });
 }
 
 EspResult espFramesDone(EspContext* context, uint64_t framesDone) {
@@ -325,59 +480,25 @@ EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes) {
     });
 }
 
-EspCamera espFrameAll(const EspContext* context) {
-    EspCamera camera = espDefaultDrawDef().camera;
-    if (!context || (context->surfaces.size() == 0 && !context->town)) return camera;
-    const auto eachBox = [&](auto&& take) {
-        for (uint32_t i = 0; i < espHouseCount(context); ++i)
-            if (EspHouseInfo house; espHouseInfo(context, i, &house) == ESP_OK)
-                take(vec(house.boundsMin), vec(house.boundsMax));
-        context->surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
-            take(vec(surface.info.boundsMin), vec(surface.info.boundsMax));
-        });
-    };
-    glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
-    eachBox([&](glm::vec3 from, glm::vec3 to) { low = glm::min(low, from), high = glm::max(high, to); });
-    const glm::vec3 size = high - low;
-    const float radius = std::max(glm::length(size) * .5f, 1e-4f);
-    camera.fovY = .6f;
-    // What is flat, such as a town, is seen from further above, over what stands at its rim.
-    const float flatness = size.y / std::max({size.x, size.z, 1e-4f});
-    const glm::vec3 towards =
-        glm::normalize(glm::vec3(.55f, glm::mix(.6f, .2f, glm::smoothstep(.1f, .5f, flatness)), 1));
-    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), towards));
-    const glm::vec3 up = glm::cross(towards, right);
-    // So far away that every corner is nearly within a frame of 4:3.
-    const float tangent = std::tan(camera.fovY * .5f) * .96f;
-    const glm::vec3 centre = (low + high) * .5f;
-    float distance = radius;
-    eachBox([&](glm::vec3 from, glm::vec3 to) {
-        for (int i = 0; i < 8; ++i) {
-            const glm::vec3 c = glm::mix(from, to, glm::vec3(i & 1, i >> 1 & 1, i >> 2 & 1)) - centre;
-            const float across = std::max(std::abs(glm::dot(c, up)), std::abs(glm::dot(c, right)) * .75f);
-            distance = std::max(distance, glm::dot(c, towards) + across / tangent);
-        }
+EspResult espFrameAll(const EspContext* context, EspCamera* out) {
+    return guarded(context, [&] {
+        give("espFrameAll", out, frameAll(*context));
+        return ESP_OK;
     });
-    const glm::vec3 eye = centre + towards * distance;
-    std::memcpy(camera.eye, &eye, sizeof camera.eye);
-    std::memcpy(camera.target, &centre, sizeof camera.target);
-    camera.nearPlane = std::min(radius * .005f, .1f);  // within a town one stands on its streets
-    return camera;
 }
 
 EspResult espReadStats(EspContext* context, EspStats* out) {
     return guarded(context, [&] {
-        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espReadStats: null pointer");
         context->device->collect();
-        *out = gather(*context);
+        give("espReadStats", out, gather(*context));
         return ESP_OK;
     });
 }
 
 EspResult espMaterialise(EspContext* context, EspTriangles* out) {
     return guarded(context, [&] {
-        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espMaterialise: null pointer");
-        *out = EspTriangles{};
+        EspTriangles made{};
+        give("espMaterialise", out, made);
         Status tables = context->refreshTables();
         if (!tables) return failGpu(context, tables.failure());
         EmitInputs inputs;
@@ -397,14 +518,16 @@ EspResult espMaterialise(EspContext* context, EspTriangles* out) {
             if (!indices) return failGpu(context, indices.failure());
             context->vertices = std::move(*vertices);
             context->indices = std::move(*indices);
-            out->ms = triangles->milliseconds;
+            made.ms = triangles->milliseconds;
         }
         if (EspResult bad = materialiseTown(*context, context->vertices, context->indices)) return bad;
-        if (context->indices.empty()) return ESP_OK;
-        out->vertices = context->vertices.data();
-        out->vertexCount = context->vertices.size() / sizeof(TriangleVertex);
-        out->indices = reinterpret_cast<const uint32_t*>(context->indices.data());
-        out->indexCount = context->indices.size() / sizeof(uint32_t);
+        if (!context->indices.empty()) {
+            made.vertices = context->vertices.data();
+            made.vertexCount = context->vertices.size() / sizeof(TriangleVertex);
+            made.indices = reinterpret_cast<const uint32_t*>(context->indices.data());
+            made.indexCount = context->indices.size() / sizeof(uint32_t);
+        }
+        give("espMaterialise", out, made);
         return ESP_OK;
     });
 }

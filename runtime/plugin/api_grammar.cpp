@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "runtime/core/file.hpp"
 #include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/errors.hpp"
@@ -18,10 +17,9 @@ namespace {
 constexpr uint32_t kMaxGrammars = 1024;
 
 Result<RuleMap> compile(const EspContext& context, const EspGrammarDef& def) {
-    const std::filesystem::path file = def.name ? def.name : "grammar";
     CompileOptions options;
-    options.fileName = file.string();
-    options.readInclude = includesBeside(file);
+    options.fileName = def.name ? def.name : "grammar";
+    options.readInclude = context.files.includesOf(options.fileName);
     options.roofMeshes = context.roofMeshNames;
     options.pieces = context.patterns.names;
     return compileGrammar({def.text, def.length}, options, context.cacheFolder);
@@ -52,7 +50,8 @@ Status bindLayers(EspContext& context, LoadedGrammar& grammar, uint32_t old) {
 Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, uint32_t oldId) {
     const auto begin = std::chrono::steady_clock::now();
     // Without their files, grammars of roofs and of patterns know no meshes; ivy doesn't mind.
-    (void)knowRoofMeshes(context);
+    std::string ignored;
+    (void)knowRoofMeshes(context, ignored);
     (void)knowPieces(context);
     Result<RuleMap> map = compile(context, def);
     if (!map) return map.failure();
@@ -71,12 +70,11 @@ Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, uin
     return grammar;
 }
 
-EspResult checkDef(const EspContext* context, const EspGrammarDef* def) {
-    if (!def || (!def->text && def->length))
-        return fail(context, ESP_INVALID_ARGUMENT, "compiling a grammar: null pointer");
-    if (def->length > kMaxGrammarBytes)
+EspResult checkDef(const EspContext* context, const EspGrammarDef& def) {
+    if (!def.text && def.length) return fail(context, ESP_INVALID_ARGUMENT, "compiling a grammar: its text is null");
+    if (def.length > kMaxGrammarBytes)
         return fail(context, ESP_INVALID_CONTENT,
-                    std::string(def->name ? def->name : "a grammar") + ": the text is longer than 1 MiB");
+                    std::string(def.name ? def.name : "a grammar") + ": the text is longer than 1 MiB");
     return ESP_OK;
 }
 
@@ -145,15 +143,16 @@ uint32_t EspContext::grammarIndex(uint32_t id) const {
 
 extern "C" {
 
-EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGrammar* out) {
+EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* given, EspGrammar* out) {
     return guarded(context, [&] {
+        const EspGrammarDef def = taken("espCompileGrammar", given);
         if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espCompileGrammar: null pointer");
         if (EspResult bad = checkDef(context, def)) return bad;
         if (context->grammars.size() >= kMaxGrammars)
             return fail(context, ESP_INVALID_ARGUMENT, "espCompileGrammar: there are 1024 grammars already");
         std::vector<SceneLayer> before = context->sceneLayers;
         Undo binding([&] { context->sceneLayers.swap(before); });
-        Result<LoadedGrammar> grammar = prepare(*context, *def, 0);
+        Result<LoadedGrammar> grammar = prepare(*context, def, 0);
         if (!grammar) return failContent(context, grammar.failure());
         context->compileMs = grammar->compileMs;
         const uint32_t id = context->grammars.insert(std::move(*grammar));
@@ -164,14 +163,15 @@ EspResult espCompileGrammar(EspContext* context, const EspGrammarDef* def, EspGr
     });
 }
 
-EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGrammarDef* def) {
+EspResult espRecompileGrammar(EspContext* context, EspGrammar id, const EspGrammarDef* given) {
     return guarded(context, [&] {
+        const EspGrammarDef def = taken("espRecompileGrammar", given);
         LoadedGrammar* old = find(context, id);
         if (!old) return fail(context, ESP_INVALID_ARGUMENT, "espRecompileGrammar: no such grammar");
         if (EspResult bad = checkDef(context, def)) return bad;
         std::vector<SceneLayer> before = context->sceneLayers;
         Undo binding([&] { context->sceneLayers.swap(before); });
-        Result<LoadedGrammar> grammar = prepare(*context, *def, id.id);
+        Result<LoadedGrammar> grammar = prepare(*context, def, id.id);
         if (!grammar) return failContent(context, grammar.failure());
         const std::string lost = lostSymbol(*context, id.id, grammar->map);
         if (!lost.empty())
@@ -221,18 +221,19 @@ uint32_t espParamCount(const EspContext* context, EspGrammar id) {
 EspResult espParamInfo(const EspContext* context, EspGrammar id, uint32_t index, EspParamInfo* out) {
     return guarded(context, [&] {
         const LoadedGrammar* grammar = find(context, id);
-        if (!grammar || !out || index >= grammar->map.params().size())
-            return fail(context, ESP_INVALID_ARGUMENT, "espParamInfo: no such grammar or parameter, or null");
+        if (!grammar || index >= grammar->map.params().size())
+            return fail(context, ESP_INVALID_ARGUMENT, "espParamInfo: no such grammar or parameter");
         const ParamInfo& param = grammar->map.params()[index];
-        *out = EspParamInfo{};
-        out->name = param.name.c_str();
-        out->label = param.label.empty() ? param.name.c_str() : param.label.c_str();
-        out->unit = param.unit.c_str();
-        out->kind = kindOf(param);
-        std::memcpy(out->value, param.value, sizeof out->value);
-        std::memcpy(out->initial, param.standard, sizeof out->initial);
-        out->low = param.minimum;
-        out->high = param.maximum;
+        EspParamInfo info{};
+        info.name = param.name.c_str();
+        info.label = param.label.empty() ? param.name.c_str() : param.label.c_str();
+        info.unit = param.unit.c_str();
+        info.kind = kindOf(param);
+        std::memcpy(info.value, param.value, sizeof info.value);
+        std::memcpy(info.initial, param.standard, sizeof info.initial);
+        info.low = param.minimum;
+        info.high = param.maximum;
+        give("espParamInfo", out, info);
         return ESP_OK;
     });
 }

@@ -170,30 +170,39 @@ uint32_t espHouseCount(const EspContext* context) {
 EspResult espHouseInfo(const EspContext* context, uint32_t index, EspHouseInfo* out) {
     return guarded(context, [&] {
         const RoofHouse* house = houseOf(context, index);
-        if (!house || !out) return fail(context, ESP_INVALID_ARGUMENT, "espHouseInfo: no such house, or null");
+        if (!house) return fail(context, ESP_INVALID_ARGUMENT, "espHouseInfo: no such house");
         const Footprint& footprint = footprintOf(*context->town, index);
-        *out = EspHouseInfo{};
-        out->id = house->id.c_str();
-        out->note = house->note.c_str();
-        out->shape = EspRoofShape(footprint.shape);
-        out->slope = footprint.slope ? float(*footprint.slope) : 0;
-        out->baseHeight = house->baseHeight;
-        out->eaveHeight = house->eaveHeight;
-        out->ridgeHeight = house->ridgeHeight;
-        out->edgeCount = uint32_t(house->edges.size());
-        out->ringCount = uint32_t(house->rings.size());
-        out->look = lookOf(*house);
+        EspHouseInfo info{};
+        info.id = house->id.c_str();
+        info.note = house->note.c_str();
+        info.shape = EspRoofShape(footprint.shape);
+        info.slope = footprint.slope ? float(*footprint.slope) : 0;
+        info.baseHeight = house->baseHeight;
+        info.eaveHeight = house->eaveHeight;
+        info.ridgeHeight = house->ridgeHeight;
+        info.edgeCount = uint32_t(house->edges.size());
+        info.ringCount = uint32_t(house->rings.size());
         glm::vec2 low(1e30f), high(-1e30f);
         for (const auto& ring : house->rings)
             for (glm::vec2 p : ring) {
                 low = glm::min(low, p);
                 high = glm::max(high, p);
-                out->cornerCount += 1;
+                info.cornerCount += 1;
             }
         const glm::vec3 corner(float(house->origin.x + low.x), house->baseHeight, float(-house->origin.y - high.y));
         const glm::vec3 other(float(house->origin.x + high.x), house->ridgeHeight, float(-house->origin.y - low.y));
-        std::memcpy(out->boundsMin, &corner, sizeof corner);
-        std::memcpy(out->boundsMax, &other, sizeof other);
+        std::memcpy(info.boundsMin, &corner, sizeof corner);
+        std::memcpy(info.boundsMax, &other, sizeof other);
+        give("espHouseInfo", out, info);
+        return ESP_OK;
+    });
+}
+
+EspResult espHouseLook(const EspContext* context, uint32_t index, EspHouseLook* out) {
+    return guarded(context, [&] {
+        const RoofHouse* house = houseOf(context, index);
+        if (!house) return fail(context, ESP_INVALID_ARGUMENT, "espHouseLook: no such house");
+        give("espHouseLook", out, lookOf(*house));
         return ESP_OK;
     });
 }
@@ -224,14 +233,16 @@ EspResult espHouseRings(const EspContext* context, uint32_t index, uint32_t* cor
     });
 }
 
-EspResult espSetHouse(EspContext* context, uint32_t index, const EspHouseDef* def) {
+EspResult espSetHouse(EspContext* context, uint32_t index, const EspHouseDef* given) {
     return guarded(context, [&] {
-        if (!houseOf(context, index) || !def)
-            return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: no such house, or null");
-        if (const char* mistake = mistakeIn(*def, *houseOf(context, index)))
+        EspHouseDef def = taken("espSetHouse", given);
+        if (!houseOf(context, index)) return fail(context, ESP_INVALID_ARGUMENT, "espSetHouse: no such house");
+        const EspHouseLook look = takenOr("espSetHouse", def.look, EspHouseLook{});
+        if (def.look) def.look = &look;
+        if (const char* mistake = mistakeIn(def, *houseOf(context, index)))
             return fail(context, ESP_INVALID_ARGUMENT, std::string("espSetHouse: ") + mistake);
         const LoadedTown& town = *context->town;
-        const HouseWish wish = wishOf(town.structure.houses[index], *def);
+        const HouseWish wish = wishOf(town.structure.houses[index], def);
         return setHouse(*context, index,
                         footprintFor(town.footprints[town.footprintOf[index]], plannedHouse(town, index), wish));
     });

@@ -230,8 +230,8 @@ extern "C" {
 
 EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out) {
     return guarded(context, [&] {
-        if (!brush || !out) return fail(context, ESP_INVALID_ARGUMENT, "espBeginStroke: null pointer");
-        return begin(*context, *brush, out);
+        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espBeginStroke: null pointer");
+        return begin(*context, taken("espBeginStroke", brush), out);
     });
 }
 

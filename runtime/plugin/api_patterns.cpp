@@ -28,35 +28,39 @@ EspResult checkField(const EspContext* context, const EspFieldDef& def) {
 }
 
 }  // namespace
+
+void setDefaults(EspFieldDef& def) {
+    const AskedField standard;
+    std::memcpy(def.drift, standard.drift, sizeof def.drift);
+    def.lean = standard.lean;
+}
+
 }  // namespace espalier
 
 using namespace espalier;
 
 extern "C" {
 
-EspFieldDef espDefaultFieldDef(void) {
-    EspFieldDef def{};
-    const AskedField standard;
-    std::memcpy(def.drift, standard.drift, sizeof def.drift);
-    def.lean = standard.lean;
-    return def;
+EspResult espDefaultFieldDef(EspFieldDef* out) {
+    return giveDefaults("espDefaultFieldDef", out);
 }
 
-EspResult espSetField(EspContext* context, EspSurface surface, const char* name, const EspFieldDef* def) {
+EspResult espSetField(EspContext* context, EspSurface surface, const char* name, const EspFieldDef* given) {
     return guarded(context, [&] {
         if (!context->surfaces.find(surface.id) || !name || !*name)
             return fail(context, ESP_INVALID_ARGUMENT, "espSetField: no such surface, or no name");
         ContextPatterns& patterns = context->patterns;
         const std::pair<uint32_t, std::string> key{surface.id, name};
-        if (!def) {
+        if (!given) {
             if (patterns.asked.erase(key) > 0) context->nodes.fields.change();
             return ESP_OK;
         }
-        if (EspResult bad = checkField(context, *def)) return bad;
+        const EspFieldDef def = taken("espSetField", given);
+        if (EspResult bad = checkField(context, def)) return bad;
         AskedField asked;
-        asked.elements.assign(def->elements, def->elements + def->elementCount);
-        std::memcpy(asked.drift, def->drift, sizeof asked.drift);
-        asked.lean = def->lean;
+        asked.elements.assign(def.elements, def.elements + def.elementCount);
+        std::memcpy(asked.drift, def.drift, sizeof asked.drift);
+        asked.lean = def.lean;
         asked.number = context->nodes.fields.change();
         patterns.asked[key] = std::move(asked);
         return ESP_OK;
@@ -85,19 +89,19 @@ const char* espFieldName(const EspContext* context, EspGrammar grammar, uint32_t
 
 EspResult espPatternStats(EspContext* context, EspPatternStats* out) {
     return guarded(context, [&] {
-        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espPatternStats: null pointer");
         const PatternStats& s = context->patterns.stats;
-        *out = EspPatternStats{};
-        out->seeds = context->patterns.seeds;
-        out->shapes = s.shapes;
-        out->tried = s.tried;
-        out->standing = s.standing;
-        out->fallen = s.fallen;
-        out->waves = s.waves;
-        out->rounds = s.rounds;
-        out->pieces = s.pieces;
-        out->hash = s.hash;
-        out->ms = s.ms;
+        EspPatternStats stats{};
+        stats.seeds = context->patterns.seeds;
+        stats.shapes = s.shapes;
+        stats.tried = s.tried;
+        stats.standing = s.standing;
+        stats.fallen = s.fallen;
+        stats.waves = s.waves;
+        stats.rounds = s.rounds;
+        stats.pieces = s.pieces;
+        stats.hash = s.hash;
+        stats.ms = s.ms;
+        give("espPatternStats", out, stats);
         return ESP_OK;
     });
 }

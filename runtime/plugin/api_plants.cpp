@@ -44,12 +44,13 @@ EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, 
         plants->pick(origin, direction, wall ? wall->distance + slack : std::numeric_limits<float>::infinity());
     // Not logged: a ray that meets nothing is an answer.
     if (!hit) return ESP_INVALID_ARGUMENT;
-    *out = EspPlantHit{};
-    out->seed = seedOf(context, *plants, hit->branch);
-    out->branch = plants->keyOf(hit->branch);
-    out->depth = plants->depthOf(hit->branch);
-    out->distance = hit->distance;
-    put(out->position, hit->position);
+    EspPlantHit found{};
+    found.seed = seedOf(context, *plants, hit->branch);
+    found.branch = plants->keyOf(hit->branch);
+    found.depth = plants->depthOf(hit->branch);
+    found.distance = hit->distance;
+    put(found.position, hit->position);
+    give("espPickPlant", out, found);
     return ESP_OK;
 }
 
@@ -59,8 +60,12 @@ EspResult branchInfo(EspContext& context, uint64_t branch, EspBranchInfo* out) {
     const auto index = plants->findBranch(branch);
     if (!index) return fail(&context, ESP_INVALID_ARGUMENT, "espBranchInfo: no such branch has grown");
     const uint32_t parent = plants->parentOf(*index).value_or(*index);
-    *out = {seedOf(context, *plants, *index), plants->keyOf(parent), plants->depthOf(*index),
-            EspBranchEnd(plants->endOf(*index))};
+    EspBranchInfo info{};
+    info.seed = seedOf(context, *plants, *index);
+    info.parent = plants->keyOf(parent);
+    info.depth = plants->depthOf(*index);
+    info.end = EspBranchEnd(plants->endOf(*index));
+    give("espBranchInfo", out, info);
     return ESP_OK;
 }
 
@@ -97,10 +102,12 @@ EspResult plantInfo(EspContext& context, uint32_t id, const PlantedSeed& seed, E
     else if (seed.onBare || buriedByOthers(context, seed))
         extent.end = BranchEnd::noGround;
     if (extent.nodes == 0) extent.low = extent.high = seed.position;
-    out->nodes = extent.nodes;
-    out->end = EspBranchEnd(extent.end);
-    put(out->boundsMin, extent.low);
-    put(out->boundsMax, extent.high);
+    EspPlantInfo info{};
+    info.nodes = extent.nodes;
+    info.end = EspBranchEnd(extent.end);
+    put(info.boundsMin, extent.low);
+    put(info.boundsMax, extent.high);
+    give("espPlantInfo", out, info);
     return ESP_OK;
 }
 
@@ -113,7 +120,7 @@ extern "C" {
 
 EspResult espPickPlant(EspContext* context, const float origin[3], const float direction[3], EspPlantHit* out) {
     return guarded(context, [&] {
-        if (!out || !isRay(origin, direction))
+        if (!isRay(origin, direction))
             return fail(context, ESP_INVALID_ARGUMENT, "espPickPlant: null pointer, or a ray that isn't one");
         return pickPlant(*context, vec(origin), vec(direction), out);
     });
@@ -127,16 +134,13 @@ EspResult espBranchPath(EspContext* context, uint64_t branch, EspPathSample* sam
 }
 
 EspResult espBranchInfo(EspContext* context, uint64_t branch, EspBranchInfo* out) {
-    return guarded(context, [&] {
-        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espBranchInfo: null pointer");
-        return branchInfo(*context, branch, out);
-    });
+    return guarded(context, [&] { return branchInfo(*context, branch, out); });
 }
 
 EspResult espPlantInfo(EspContext* context, EspSeed seed, EspPlantInfo* out) {
     return guarded(context, [&] {
         const PlantedSeed* planted = context->seeds.find(seed.id);
-        if (!out || !planted) return fail(context, ESP_INVALID_ARGUMENT, "espPlantInfo: no such seed, or null");
+        if (!planted) return fail(context, ESP_INVALID_ARGUMENT, "espPlantInfo: no such seed");
         return plantInfo(*context, seed.id, *planted, out);
     });
 }

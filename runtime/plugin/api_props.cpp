@@ -33,9 +33,10 @@ EspResult setProps(EspContext& context, const char* path, const EspPropPlace* pl
         Status cleared = context.renderer->removeProps();
         return cleared ? ESP_OK : failGpu(&context, cleared.failure());
     }
-    if (EspResult readable = checkReadable(&context, path)) return readable;
+    std::vector<std::byte> file;
+    if (EspResult unread = readWhole(&context, path, file)) return unread;
     // The first kind is none: it would be bark.
-    Result<TerminalData> models = readTerminals(path, {"none"});
+    Result<TerminalData> models = parseTerminals(file, path, {"none"});
     if (!models) return fail(&context, ESP_INVALID_CONTENT, models.failure().text());
     // As the GPU sorts them.
     std::stable_sort(models->variants.begin(), models->variants.end(),
@@ -48,20 +49,20 @@ EspResult setProps(EspContext& context, const char* path, const EspPropPlace* pl
     return fail(&context, ESP_INVALID_CONTENT, std::string(path) + ": " + set.failure().text());
 }
 
-EspResult setSite(EspContext& context, const EspSiteDef* def) {
+EspResult setSite(EspContext& context, const EspSiteDef& def) {
     constexpr uint32_t kMostSide = 8192;
     SiteMap map;
-    if (def && def->rgba) {
-        if (def->width < 1 || def->height < 1 || def->width > kMostSide || def->height > kMostSide)
+    if (def.rgba) {
+        if (def.width < 1 || def.height < 1 || def.width > kMostSide || def.height > kMostSide)
             return fail(&context, ESP_INVALID_ARGUMENT, "espSetSite: a map has 1 to 8192 texels a side");
-        map.low = {def->low[0], def->low[1]};
-        map.high = {def->high[0], def->high[1]};
+        map.low = {def.low[0], def.low[1]};
+        map.high = {def.high[0], def.high[1]};
         const glm::vec2 size = map.high - map.low;
         if (!(size.x > 1e-3f && size.y > 1e-3f && size.x < 1e6f && size.y < 1e6f))
             return fail(&context, ESP_INVALID_ARGUMENT, "espSetSite: 'high' must lie beyond 'low'");
-        map.width = def->width;
-        map.height = def->height;
-        map.rgba.assign(def->rgba, def->rgba + size_t(def->width) * def->height * 4);
+        map.width = def.width;
+        map.height = def.height;
+        map.rgba.assign(def.rgba, def.rgba + size_t(def.width) * def.height * 4);
     }
     Status set = context.renderer->setSite(map);
     return set ? ESP_OK : failGpu(&context, set.failure());
@@ -82,7 +83,7 @@ EspResult espSetProps(EspContext* context, const char* models, const EspPropPlac
 }
 
 EspResult espSetSite(EspContext* context, const EspSiteDef* def) {
-    return guarded(context, [&] { return setSite(*context, def); });
+    return guarded(context, [&] { return setSite(*context, takenOr("espSetSite", def, EspSiteDef{})); });
 }
 
 }  // extern "C"

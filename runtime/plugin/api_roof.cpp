@@ -14,15 +14,24 @@
 
 namespace espalier {
 
-Status knowRoofMeshes(EspContext& context) {
-    if (!context.roofMeshNames.empty()) return Done{};
-    Result<TerminalData> meshes = readTerminals(context.roofMeshFile, {"none"});
-    if (!meshes) return meshes.failure();
+EspResult knowRoofMeshes(EspContext& context, std::string& why) {
+    if (!context.roofMeshNames.empty()) return ESP_OK;
+    const std::string path = context.roofMeshFile.string();
+    const Result<std::vector<std::byte>> file = context.files.read(path);
+    if (!file) {
+        why = file.failure().text();
+        return ESP_IO_FAILED;
+    }
+    Result<TerminalData> meshes = parseTerminals(file.value(), path, {"none"});
+    if (!meshes) {
+        why = meshes.failure().text();
+        return ESP_INVALID_CONTENT;
+    }
     std::vector<TerminalMesh> names;
     for (const std::string& kind : meshes->kinds) names.push_back({kind, false});
     context.roofMeshNames = std::move(names);
     context.roofMeshes = std::move(*meshes);
-    return Done{};
+    return ESP_OK;
 }
 
 namespace {
@@ -138,7 +147,37 @@ EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
     return ESP_OK;
 }
 
+EspRoofStats statsOf(const EspContext& context) {
+    EspRoofStats stats{};
+    const bool stand = context.roofs && context.town->view.gridCount > 0;
+    const RoofStats grown = stand ? context.roofs->stats() : RoofStats{};
+    const RoofDrawStats drawn = context.renderer->stats().roofs;
+    stats.houses = uint32_t(context.town->structure.houses.size());
+    stats.eaves = grown.atoms;
+    stats.tiles = grown.tiles;
+    stats.clippedTiles = grown.clipped;
+    stats.grids = grown.grids;
+    stats.drawnTiles = drawn.tiles + drawn.cutTiles;
+    stats.drawnRectangles = drawn.rectangles;
+    stats.drawnTriangles = drawn.triangles;
+    stats.stopped = grown.stopped;
+    stats.housesGrown = grown.housesGrown;
+    stats.overflow = drawn.overflow;
+    stats.bytes = grown.bytes;
+    stats.structureMs = context.town->structureMs;
+    stats.expandMs = grown.expandMs;
+    stats.hash = grown.hash;
+    return stats;
+}
+
 }  // namespace
+
+void setDefaults(EspTownDef& def) {
+    def.ground = 1;
+    def.groundColour[0] = .085f;
+    def.groundColour[1] = .105f;
+    def.groundColour[2] = .045f;
+}
 
 EspResult updateTown(EspContext& context) {
     if (!context.town || context.town->grammar == 0) return ESP_OK;
@@ -162,13 +201,8 @@ using namespace espalier;
 
 extern "C" {
 
-EspTownDef espDefaultTownDef(void) {
-    EspTownDef def{};
-    def.ground = 1;
-    def.groundColour[0] = .085f;
-    def.groundColour[1] = .105f;
-    def.groundColour[2] = .045f;
-    return def;
+EspResult espDefaultTownDef(EspTownDef* out) {
+    return giveDefaults("espDefaultTownDef", out);
 }
 
 EspResult espSetTownGrammar(EspContext* context, EspGrammar id) {
@@ -185,27 +219,27 @@ EspResult espSetTownGrammar(EspContext* context, EspGrammar id) {
     });
 }
 
-EspResult espLoadTown(EspContext* context, const EspTownDef* def) {
+EspResult espLoadTown(EspContext* context, const EspTownDef* given) {
     return guarded(context, [&] {
-        if (!def || !def->text) return fail(context, ESP_INVALID_ARGUMENT, "espLoadTown: null pointer");
-        if (def->length > kMaxFootprintBytes)
+        const EspTownDef def = taken("espLoadTown", given);
+        if (!def.text) return fail(context, ESP_INVALID_ARGUMENT, "espLoadTown: null pointer");
+        if (def.length > kMaxFootprintBytes)
             return fail(context, ESP_INVALID_CONTENT, "espLoadTown: more than 512 MiB of text");
-        for (float v : {def->position[0], def->position[1], def->position[2], def->turn, def->groundColour[0],
-                        def->groundColour[1], def->groundColour[2]})
+        for (float v : {def.position[0], def.position[1], def.position[2], def.turn, def.groundColour[0],
+                        def.groundColour[1], def.groundColour[2]})
             if (!(std::abs(v) < 1e6f))
                 return fail(context, ESP_INVALID_ARGUMENT,
                             "espLoadTown: position, turn and ground colour must be numbers within 1e6");
-        if (def->grammar.id) {
-            const LoadedGrammar* grammar = context->grammars.find(def->grammar.id);
+        if (def.grammar.id) {
+            const LoadedGrammar* grammar = context->grammars.find(def.grammar.id);
             if (!grammar || !grammar->map.roofs())
                 return fail(context, ESP_INVALID_ARGUMENT, "espLoadTown: no such grammar, or one that makes no roofs");
         }
-        if (context->roofMeshNames.empty())
-            if (EspResult unreadable = checkReadable(context, context->roofMeshFile.c_str())) return unreadable;
-        if (Status known = knowRoofMeshes(*context); !known) return failContent(context, known.failure());
-        Result<LoadedTown> town = prepare(*context, *def);
+        std::string why;
+        if (const EspResult unknown = knowRoofMeshes(*context, why)) return fail(context, unknown, why);
+        Result<LoadedTown> town = prepare(*context, def);
         if (!town) return failContent(context, town.failure());
-        town->grammar = def->grammar.id;
+        town->grammar = def.grammar.id;
         context->town = std::move(*town);
         context->town->whole = context->nodes.town.change();
         return ESP_OK;
@@ -229,28 +263,12 @@ EspResult espTownGrammar(const EspContext* context, EspGrammar* out) {
 
 EspResult espReadRoofStats(EspContext* context, EspRoofStats* out) {
     return guarded(context, [&] {
-        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espReadRoofStats: null pointer");
-        *out = EspRoofStats{};
-        if (!context->town) return ESP_OK;
-        context->device->collect();
-        const bool stand = context->roofs && context->town->view.gridCount > 0;
-        const RoofStats grown = stand ? context->roofs->stats() : RoofStats{};
-        const RoofDrawStats drawn = context->renderer->stats().roofs;
-        out->houses = uint32_t(context->town->structure.houses.size());
-        out->eaves = grown.atoms;
-        out->tiles = grown.tiles;
-        out->clippedTiles = grown.clipped;
-        out->grids = grown.grids;
-        out->drawnTiles = drawn.tiles + drawn.cutTiles;
-        out->drawnRectangles = drawn.rectangles;
-        out->drawnTriangles = drawn.triangles;
-        out->stopped = grown.stopped;
-        out->housesGrown = grown.housesGrown;
-        out->overflow = drawn.overflow;
-        out->bytes = grown.bytes;
-        out->structureMs = context->town->structureMs;
-        out->expandMs = grown.expandMs;
-        out->hash = grown.hash;
+        EspRoofStats stats{};
+        if (context->town) {
+            context->device->collect();
+            stats = statsOf(*context);
+        }
+        give("espReadRoofStats", out, stats);
         return ESP_OK;
     });
 }

@@ -87,31 +87,35 @@ EspResult importLayer(EspContext& context, const EspLayerDef& def, EspStroke* ou
 }
 
 }  // namespace
+
+void setDefaults(EspLayerDef& def) {
+    def.space = ESP_LAYER_MATERIAL_UV;
+}
+
 }  // namespace espalier
 
 using namespace espalier;
 
 extern "C" {
 
-EspLayerDef espDefaultLayerDef(void) {
-    EspLayerDef def{};
-    def.space = ESP_LAYER_MATERIAL_UV;
-    return def;
+EspResult espDefaultLayerDef(EspLayerDef* out) {
+    return giveDefaults("espDefaultLayerDef", out);
 }
 
-EspResult espSetLayer(EspContext* context, const EspLayerDef* def) {
+EspResult espSetLayer(EspContext* context, const EspLayerDef* given) {
     return guarded(context, [&] {
-        if (!def) return fail(context, ESP_INVALID_ARGUMENT, "espSetLayer: null pointer");
-        if (EspResult bad = checkLayer(*context, *def)) return bad;
-        return setLayer(*context, *def);
+        const EspLayerDef def = taken("espSetLayer", given);
+        if (EspResult bad = checkLayer(*context, def)) return bad;
+        return setLayer(*context, def);
     });
 }
 
-EspResult espImportLayer(EspContext* context, const EspLayerDef* def, EspStroke* out) {
+EspResult espImportLayer(EspContext* context, const EspLayerDef* given, EspStroke* out) {
     return guarded(context, [&] {
-        if (!def || !def->texels || !out) return fail(context, ESP_INVALID_ARGUMENT, "espImportLayer: null pointer");
-        if (EspResult bad = checkLayer(*context, *def)) return bad;
-        return importLayer(*context, *def, out);
+        const EspLayerDef def = taken("espImportLayer", given);
+        if (!def.texels || !out) return fail(context, ESP_INVALID_ARGUMENT, "espImportLayer: null pointer");
+        if (EspResult bad = checkLayer(*context, def)) return bad;
+        return importLayer(*context, def, out);
     });
 }
 

@@ -146,6 +146,10 @@ EspResult setParam(EspContext& context, PlantedSeed& seed, const char* name, con
 
 }  // namespace
 
+void setDefaults(EspSeedDef& def) {
+    def.number = 1;
+}
+
 uint64_t seedKey(const PlantedSeed& seed) {
     return keyOf(seed.number, seed.twin);
 }
@@ -185,16 +189,14 @@ using namespace espalier;
 
 extern "C" {
 
-EspSeedDef espDefaultSeedDef(void) {
-    EspSeedDef def{};
-    def.number = 1;
-    return def;
+EspResult espDefaultSeedDef(EspSeedDef* out) {
+    return giveDefaults("espDefaultSeedDef", out);
 }
 
 EspResult espPlant(EspContext* context, const EspSeedDef* def, EspSeed* out) {
     return guarded(context, [&] {
-        if (!def || !out) return fail(context, ESP_INVALID_ARGUMENT, "espPlant: null pointer");
-        return plant(*context, *def, out);
+        if (!out) return fail(context, ESP_INVALID_ARGUMENT, "espPlant: null pointer");
+        return plant(*context, taken("espPlant", def), out);
     });
 }
 
@@ -235,19 +237,30 @@ EspResult espSeedAt(const EspContext* context, uint32_t index, EspSeed* out) {
 EspResult espSeedInfo(const EspContext* context, EspSeed id, EspSeedInfo* out) {
     return guarded(context, [&] {
         const PlantedSeed* seed = find(context, id);
-        if (!seed || !out) return fail(context, ESP_INVALID_ARGUMENT, "espSeedInfo: no such seed, or null");
-        *out = EspSeedInfo{};
-        out->def.grammar.id = seed->grammar;
-        out->def.symbol = seed->symbol.c_str();
-        put(out->def.position, seed->givenPosition);
-        put(out->def.direction, seed->givenDirection);
-        out->def.number = seed->number;
-        out->def.twin = seed->twin;
-        out->surface.id = seed->surface;
-        put(out->position, seed->position);
-        put(out->normal, seed->normal);
-        put(out->direction, seed->direction);
-        out->frozen = seed->frozen ? 1 : 0;
+        if (!seed) return fail(context, ESP_INVALID_ARGUMENT, "espSeedInfo: no such seed");
+        EspSeedInfo info{};
+        info.surface.id = seed->surface;
+        put(info.position, seed->position);
+        put(info.normal, seed->normal);
+        put(info.direction, seed->direction);
+        info.frozen = seed->frozen ? 1 : 0;
+        give("espSeedInfo", out, info);
+        return ESP_OK;
+    });
+}
+
+EspResult espSeedDef(const EspContext* context, EspSeed id, EspSeedDef* out) {
+    return guarded(context, [&] {
+        const PlantedSeed* seed = find(context, id);
+        if (!seed) return fail(context, ESP_INVALID_ARGUMENT, "espSeedDef: no such seed");
+        EspSeedDef def{};
+        def.grammar.id = seed->grammar;
+        def.symbol = seed->symbol.c_str();
+        put(def.position, seed->givenPosition);
+        put(def.direction, seed->givenDirection);
+        def.number = seed->number;
+        def.twin = seed->twin;
+        give("espSeedDef", out, def);
         return ESP_OK;
     });
 }

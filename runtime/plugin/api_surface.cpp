@@ -98,8 +98,8 @@ void prepareSearch(PlacedSurface& surface) {
     surface.tree = MeshTree(positions, data.indices);
 }
 
-EspResult load(EspContext& context, const char* path, const EspTransform& place, bool groundOnly, EspSurface* out) {
-    const std::string call = groundOnly ? "espLoadGround: " : "espLoadSurface: ";
+EspResult load(EspContext& context, const EspSurfaceDef& def, const std::string& call, EspSurface* out) {
+    const EspTransform place = def.place ? *def.place : espIdentity();
     const glm::mat4 toWorld = matrixOf(place);
     const std::optional<float> scale = evenScale(toWorld);
     if (!scale)
@@ -108,8 +108,14 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     if (context.surfaces.size() >= SurfaceTable::kMaxPlaces)
         return fail(&context, ESP_INVALID_ARGUMENT,
                     call + "there are " + std::to_string(SurfaceTable::kMaxPlaces) + " surfaces already");
-    if (EspResult readable = checkReadable(&context, path)) return readable;
-    Result<SurfaceData> data = readSurface(path);
+    std::vector<std::byte> file;
+    if (def.bytes) {
+        const auto* first = static_cast<const std::byte*>(def.bytes);
+        file.assign(first, first + def.size);
+    } else if (EspResult unread = readWhole(&context, def.name, file)) {
+        return unread;
+    }
+    Result<SurfaceData> data = parseSurface(std::move(file), def.name ? def.name : "a surface from memory");
     if (!data) return failContent(&context, data.failure());
 
     PlacedSurface surface;
@@ -132,7 +138,7 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
         context.renderer->removeSurface(instanceOf(id));
         context.surfaces.erase(id);
     });
-    Status drawn = context.renderer->setSurface(placed.instance, placed.data, toWorld, groundOnly);
+    Status drawn = context.renderer->setSurface(placed.instance, placed.data, toWorld, def.groundOnly != 0);
     if (!drawn) return failGpu(&context, drawn.failure());
     dropUploaded(placed.data);
     prepareSearch(placed);
@@ -140,6 +146,14 @@ EspResult load(EspContext& context, const char* path, const EspTransform& place,
     placed.placed = context.nodes.surfaces.change();
     out->id = id;
     return ESP_OK;
+}
+
+EspSurfaceDef named(const char* path, const EspTransform* place, int groundOnly) {
+    EspSurfaceDef def{};
+    def.name = path;
+    def.place = place;
+    def.groundOnly = groundOnly;
+    return def;
 }
 
 // Its seeds stay where they are on it.
@@ -262,14 +276,23 @@ EspTransform espIdentity(void) {
 EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out) {
     return guarded(context, [&] {
         if (!path || !out) return fail(context, ESP_INVALID_ARGUMENT, "espLoadSurface: null pointer");
-        return load(*context, path, place ? *place : espIdentity(), false, out);
+        return load(*context, named(path, place, 0), "espLoadSurface: ", out);
     });
 }
 
 EspResult espLoadGround(EspContext* context, const char* path, const EspTransform* place, EspSurface* out) {
     return guarded(context, [&] {
         if (!path || !out) return fail(context, ESP_INVALID_ARGUMENT, "espLoadGround: null pointer");
-        return load(*context, path, place ? *place : espIdentity(), true, out);
+        return load(*context, named(path, place, 1), "espLoadGround: ", out);
+    });
+}
+
+EspResult espAddSurface(EspContext* context, const EspSurfaceDef* given, EspSurface* out) {
+    return guarded(context, [&] {
+        const EspSurfaceDef def = taken("espAddSurface", given);
+        if ((!def.name && !def.bytes) || !out)
+            return fail(context, ESP_INVALID_ARGUMENT, "espAddSurface: null pointer");
+        return load(*context, def, "espAddSurface: ", out);
     });
 }
 
@@ -304,8 +327,8 @@ EspResult espMoveSurface(EspContext* context, EspSurface surface, const EspTrans
 EspResult espSurfaceInfo(const EspContext* context, EspSurface surface, EspSurfaceInfo* out) {
     return guarded(context, [&] {
         const PlacedSurface* placed = context->surfaces.find(surface.id);
-        if (!placed || !out) return fail(context, ESP_INVALID_ARGUMENT, "espSurfaceInfo: no such surface, or null");
-        *out = placed->info;
+        if (!placed) return fail(context, ESP_INVALID_ARGUMENT, "espSurfaceInfo: no such surface");
+        give("espSurfaceInfo", out, placed->info);
         return ESP_OK;
     });
 }

@@ -167,33 +167,37 @@ EspResult updatePlants(EspContext& context) {
 }
 
 }  // namespace
+
+void setDefaults(EspGrowDef& def) {
+    const GrowthLimits limits;
+    def.maxNodes = limits.maxNodes;
+    def.maxDepth = limits.maxDepth;
+    def.leafDensityCap = limits.leafDensityCap;
+}
+
 }  // namespace espalier
 
 using namespace espalier;
 
 extern "C" {
 
-EspGrowDef espDefaultGrowDef(void) {
-    const GrowthLimits limits;
-    EspGrowDef def{};
-    def.maxNodes = limits.maxNodes;
-    def.maxDepth = limits.maxDepth;
-    def.leafDensityCap = limits.leafDensityCap;
-    return def;
+EspResult espDefaultGrowDef(EspGrowDef* out) {
+    return giveDefaults("espDefaultGrowDef", out);
 }
 
-EspResult espSetGrow(EspContext* context, const EspGrowDef* def) {
+EspResult espSetGrow(EspContext* context, const EspGrowDef* given) {
     return guarded(context, [&] {
-        if (!def || !isAmong(def->walk, ESP_WALK_INTRINSIC, ESP_WALK_PAPER) ||
-            !isAmong(def->tangents, ESP_TANGENT_STEM, ESP_TANGENT_PAPER) || def->maxNodes < 1 || def->maxDepth < 1 ||
-            def->maxDepth > 65534 || !std::isfinite(def->leafDensityCap) || def->leafDensityCap < 0)
-            return fail(context, ESP_INVALID_ARGUMENT, "espSetGrow: null pointer, or a value out of its range");
+        const EspGrowDef def = taken("espSetGrow", given);
+        if (!isAmong(def.walk, ESP_WALK_INTRINSIC, ESP_WALK_PAPER) ||
+            !isAmong(def.tangents, ESP_TANGENT_STEM, ESP_TANGENT_PAPER) || def.maxNodes < 1 || def.maxDepth < 1 ||
+            def.maxDepth > 65534 || !std::isfinite(def.leafDensityCap) || def.leafDensityCap < 0)
+            return fail(context, ESP_INVALID_ARGUMENT, "espSetGrow: a value is out of its range");
         const EspGrowDef& now = context->grow;
-        if (now.walk == def->walk && now.tangents == def->tangents && now.maxNodes == def->maxNodes &&
-            now.maxDepth == def->maxDepth && now.leafDensityCap == def->leafDensityCap &&
-            now.shadersOnly == def->shadersOnly)
+        if (now.walk == def.walk && now.tangents == def.tangents && now.maxNodes == def.maxNodes &&
+            now.maxDepth == def.maxDepth && now.leafDensityCap == def.leafDensityCap &&
+            now.shadersOnly == def.shadersOnly)
             return ESP_OK;
-        context->grow = *def;
+        context->grow = def;
         context->changeWholly(context->nodes.limits);
         return ESP_OK;
     });

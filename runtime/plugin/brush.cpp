@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "runtime/plugin/context.hpp"
+#include "runtime/plugin/errors.hpp"
 #include "runtime/plugin/given.hpp"
 #include "runtime/plugin/painting.hpp"
 
@@ -18,11 +18,13 @@ float per(float width) {
 }
 
 bool limitsSlope(const EspBrush& brush) {
-    const EspBrush open = espDefaultBrush();
+    EspBrush open{};
+    setDefaults(open);
     return brush.slopeRange[0] > open.slopeRange[0] || brush.slopeRange[1] < open.slopeRange[1];
 }
 bool limitsHeight(const EspBrush& brush) {
-    const EspBrush open = espDefaultBrush();
+    EspBrush open{};
+    setDefaults(open);
     return brush.heightRange[0] > open.heightRange[0] || brush.heightRange[1] < open.heightRange[1];
 }
 
@@ -72,17 +74,19 @@ BrushRecord recordOf(const EspBrush& brush, float fill) {
 
 }  // namespace espalier
 
-extern "C" {
+namespace espalier {
 
-EspBrush espDefaultBrush(void) {
-    EspBrush brush{};
+void setDefaults(EspBrush& brush) {
     brush.radius = .5f;
     brush.value = 1;
     brush.strength = .5f;
-    brush.slopeRange[1] = espalier::kPi;
+    brush.slopeRange[1] = kPi;
     brush.heightRange[0] = -std::numeric_limits<float>::max();
     brush.heightRange[1] = std::numeric_limits<float>::max();
-    return brush;
 }
 
-}  // extern "C"
+}  // namespace espalier
+
+extern "C" EspResult espDefaultBrush(EspBrush* out) {
+    return espalier::giveDefaults("espDefaultBrush", out);
+}

@@ -16,6 +16,7 @@
 #include "runtime/gpu/device.hpp"
 #include "runtime/graph/node.hpp"
 #include "runtime/plugin/contents.hpp"
+#include "runtime/plugin/files.hpp"
 #include "runtime/plugin/id_table.hpp"
 #include "runtime/plugin/patterns.hpp"
 #include "runtime/plugin/surface_changes.hpp"
@@ -52,6 +53,7 @@ struct ContextNodes {
 struct EspContext {
     espalier::Log log;
     std::string cacheFolder;
+    espalier::Files files;
     mutable std::string error;
 
     // Destroyed from the last to the first: the device goes last, its objects before it.

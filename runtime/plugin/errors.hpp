@@ -7,7 +7,9 @@
 #include <string>
 #include <string_view>
 
+#include "runtime/core/check.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/sized.hpp"
 
 namespace espalier {
 
@@ -21,10 +23,8 @@ EspResult gpuCode(const EspContext& context, const Failure& failure);
 EspResult failGpu(const EspContext* context, const Failure& failure);
 // For work that may also refuse what it is given, as INVALID_CONTENT.
 EspResult failWork(const EspContext* context, const Failure& failure);
-// Why a file can't be read at all; empty: it can.
-std::string whyUnreadable(const char* path);
-// OK, or IO_FAILED with the system's reason, for a file that is to be read.
-EspResult checkReadable(const EspContext* context, const char* path);
+// The whole file into `bytes`, from where the context's files are: OK, or IO_FAILED.
+EspResult readWhole(const EspContext* context, const std::string& path, std::vector<std::byte>& bytes);
 
 // Runs what grows: want of the host's own memory is a failure like that of the GPU's.
 template <class F>
@@ -53,8 +53,12 @@ EspResult guarded(const EspContext* context, F&& body) noexcept {
         if (!context) return failAlone(ESP_INVALID_ARGUMENT, "there is no context: it is null");
         context->error.clear();
         return body();
+    } catch (const Refusal& refusal) {
+        return fail(context, ESP_INVALID_ARGUMENT, refusal.why);
     } catch (const std::bad_alloc&) {
         return fail(context, ESP_OUT_OF_MEMORY, kNoMemory);
+    } catch (const InternalError& e) {
+        return fail(context, ESP_INTERNAL_ERROR, e.what());
     } catch (const std::exception& e) {
         return fail(context, ESP_INVALID_CONTENT, e.what());
     } catch (...) {
@@ -68,13 +72,28 @@ EspResult guardedAlone(F&& body) noexcept {
     try {
         errorAlone().clear();
         return body();
+    } catch (const Refusal& refusal) {
+        return failAlone(ESP_INVALID_ARGUMENT, refusal.why);
     } catch (const std::bad_alloc&) {
         return failAlone(ESP_OUT_OF_MEMORY, kNoMemory);
+    } catch (const InternalError& e) {
+        return failAlone(ESP_INTERNAL_ERROR, e.what());
     } catch (const std::exception& e) {
         return failAlone(ESP_INVALID_CONTENT, e.what());
     } catch (...) {
         return failAlone(ESP_INVALID_CONTENT, "unknown error");
     }
+}
+
+// Fills a host's struct with defaults.
+template <class T>
+EspResult giveDefaults(const char* call, T* out) noexcept {
+    return guardedAlone([&] {
+        T def{};
+        setDefaults(def);
+        give(call, out, def);
+        return ESP_OK;
+    });
 }
 
 }  // namespace espalier

@@ -218,7 +218,9 @@ EspResult derive(EspContext& context, const PatternPlanting& planting) {
 Status knowPieces(EspContext& context) {
     ContextPatterns& patterns = context.patterns;
     if (!patterns.names.empty()) return Done{};
-    Result<TerminalData> meshes = readTerminals(patterns.file, {"none"});
+    const Result<std::vector<std::byte>> file = context.files.read(patterns.file.string());
+    if (!file) return file.failure();
+    Result<TerminalData> meshes = parseTerminals(file.value(), patterns.file.string(), {"none"});
     if (!meshes) return meshes.failure();
     std::vector<TerminalMesh> names;
     for (const std::string& kind : meshes->kinds) names.push_back({kind, false});

@@ -124,14 +124,16 @@ using namespace espalier;
 
 namespace {
 
-void fill(const SurfacePoint& point, EspHit* out) {
-    out->surface.id = point.surface;
-    put(out->position, point.position);
-    put(out->normal, point.normal);
-    out->uv[0] = point.uv.x;
-    out->uv[1] = point.uv.y;
-    out->chart = point.chart;
-    out->distance = point.distance;
+EspHit hitAt(const SurfacePoint& point) {
+    EspHit hit{};
+    hit.surface.id = point.surface;
+    put(hit.position, point.position);
+    put(hit.normal, point.normal);
+    hit.uv[0] = point.uv.x;
+    hit.uv[1] = point.uv.y;
+    hit.chart = point.chart;
+    hit.distance = point.distance;
+    return hit;
 }
 
 }  // namespace
@@ -140,23 +142,23 @@ extern "C" {
 
 EspResult espPick(const EspContext* context, const float origin[3], const float direction[3], EspHit* out) {
     return guarded(context, [&] {
-        if (!out || !isRay(origin, direction))
+        if (!isRay(origin, direction))
             return fail(context, ESP_INVALID_ARGUMENT, "espPick: null pointer, or a ray that isn't one");
         const auto point = pickSurfaces(*context, vec(origin), unitOf(vec(direction)));
         // Not logged: a ray that meets nothing is an answer.
         if (!point) return ESP_INVALID_ARGUMENT;
-        fill(*point, out);
+        give("espPick", out, hitAt(*point));
         return ESP_OK;
     });
 }
 
 EspResult espNearest(const EspContext* context, const float point[3], EspHit* out) {
     return guarded(context, [&] {
-        if (!point || !out || !finite(point))
+        if (!point || !finite(point))
             return fail(context, ESP_INVALID_ARGUMENT, "espNearest: null pointer, or a point that isn't finite");
         const auto found = nearestOnSurfaces(*context, vec(point));
         if (!found) return fail(context, ESP_INVALID_ARGUMENT, std::string("espNearest: ") + whyNoneNear(*context));
-        fill(*found, out);
+        give("espNearest", out, hitAt(*found));
         return ESP_OK;
     });
 }

@@ -10,8 +10,9 @@
 
 namespace espalier {
 
-// Names of the meshes that grammars of roofs may ask for; reads their file the first time.
-Status knowRoofMeshes(EspContext& context);
+// Names of the meshes that grammars of roofs may ask for; reads their file the first time. Where that fails (IO_FAILED,
+// INVALID_CONTENT) `why` says why, and nothing is logged.
+EspResult knowRoofMeshes(EspContext& context, std::string& why);
 // Grows what has changed of the town; on failure the last roofs stand, and what changed waits.
 EspResult updateTown(EspContext& context);
 // Null: there is no town, or none that it grows by.

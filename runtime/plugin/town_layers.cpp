@@ -76,18 +76,19 @@ extern "C" {
 
 EspResult espTownInfo(const EspContext* context, EspTownInfo* out) {
     return guarded(context, [&] {
-        if (!out || !context->town) return fail(context, ESP_INVALID_ARGUMENT, "espTownInfo: null, or no town");
+        if (!context->town) return fail(context, ESP_INVALID_ARGUMENT, "espTownInfo: there is no town");
         const RoofSite& site = context->town->layers.site();
-        *out = EspTownInfo{};
-        out->houses = uint32_t(context->town->structure.houses.size());
-        out->layerLow[0] = site.low.x;
-        out->layerLow[1] = site.low.y;
-        out->layerSide = float(site.size) / site.perMetre;
-        out->layerTexels = site.size;
-        out->groundHeight = context->town->ground.height;
-        out->origin[0] = context->town->origin.x;
-        out->origin[1] = context->town->origin.y;
-        out->geographic = context->town->geographic ? 1 : 0;
+        EspTownInfo info{};
+        info.houses = uint32_t(context->town->structure.houses.size());
+        info.layerLow[0] = site.low.x;
+        info.layerLow[1] = site.low.y;
+        info.layerSide = float(site.size) / site.perMetre;
+        info.layerTexels = site.size;
+        info.groundHeight = context->town->ground.height;
+        info.origin[0] = context->town->origin.x;
+        info.origin[1] = context->town->origin.y;
+        info.geographic = context->town->geographic ? 1 : 0;
+        give("espTownInfo", out, info);
         return ESP_OK;
     });
 }

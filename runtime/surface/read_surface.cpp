@@ -66,15 +66,11 @@ SurfaceData read(Container file, uint32_t finest) {
     return data;
 }
 
-}  // namespace
-
-Result<SurfaceData> readSurface(const std::string& path, const ReadOptions& options) {
+// What `take` returns, or why there is nothing.
+template <class Take>
+Result<SurfaceData> soundOr(const std::string& path, Take&& take) {
     try {
-        if (options.finestLevel > 0)
-            return read(Container(readUpTo(path, options.finestLevel), true), options.finestLevel);
-        auto file = readFile(path);
-        if (!file) return std::move(file.failure());
-        return read(Container(std::move(*file), false), 0);
+        return take();
     } catch (const Damage& damage) {
         return Failure(Diagnostic{path, 0, 0, damage.place, damage.message});
     } catch (const std::bad_alloc&) {
@@ -82,6 +78,20 @@ Result<SurfaceData> readSurface(const std::string& path, const ReadOptions& opti
     } catch (const std::exception& e) {  // from the JSON library
         return Failure(path, std::string("not a baked surface: ") + e.what());
     }
+}
+
+}  // namespace
+
+Result<SurfaceData> parseSurface(std::vector<std::byte> file, const std::string& name) {
+    return soundOr(name, [&] { return read(Container(std::move(file), false), 0); });
+}
+
+Result<SurfaceData> readSurface(const std::string& path, const ReadOptions& options) {
+    if (const uint32_t finest = options.finestLevel; finest > 0)
+        return soundOr(path, [&] { return read(Container(readUpTo(path, finest), true), finest); });
+    auto file = readFile(path);
+    if (!file) return std::move(file.failure());
+    return parseSurface(std::move(*file), path);
 }
 
 }  // namespace espalier

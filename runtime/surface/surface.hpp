@@ -146,6 +146,8 @@ struct ReadOptions {
 
 // Reads a baked surface (.glb). Every index and size in it is validated; errors name the file and the place.
 Result<SurfaceData> readSurface(const std::string& path, const ReadOptions& options = {});
+// The same of a file's bytes. name: for errors.
+Result<SurfaceData> parseSurface(std::vector<std::byte> file, const std::string& name);
 
 // Writes `data` as a valid glTF 2.0 binary with the extension of docs/surface_format.md, atomically: on
 // failure nothing is left at `path`.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/editor/editing.hpp"
 #include "tools/document/layer_files.hpp"
 #include "tools/document/project.hpp"
@@ -70,7 +71,7 @@ TEST_CASE("a layer of colours is painted in one stroke, shown, undone in one ste
     const uint64_t after = editing.hash();
     CHECK(after != before);
 
-    EspDrawDef draw = espDefaultDrawDef();
+    esp::DrawDef draw;
     draw.width = 160;
     draw.height = 90;
     draw.camera = scene.camera;

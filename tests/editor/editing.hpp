@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/tools/program.hpp"
 #include "tools/document/document.hpp"
 
@@ -20,8 +21,8 @@ struct Editing {
     explicit Editing(const std::string& file, uint32_t maxNodes = 20000,
                      size_t maxHistoryBytes = espalier::document::Document::kMaxHistoryBytes) {
         EspContext* made = nullptr;
-        const EspContextDef def = espDefaultContextDef();
-        REQUIRE_MESSAGE(espCreate(&def, &made) == ESP_OK, espLastError(nullptr));
+        const EspContextDef def = esp::defaults<EspContextDef>();
+        REQUIRE_MESSAGE(espCreate(ESP_VERSION, &def, &made) == ESP_OK, espLastError(nullptr));
         context.reset(made);
         espalier::scene::Request request;
         request.file = file;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/editor/editing.hpp"
 #include "tools/document/project.hpp"
 #include "tools/scene/layers.hpp"
@@ -47,7 +48,7 @@ constexpr uint32_t kWidth = 160, kHeight = 90;
 
 // The scene's picture with its mask shown, hatched by the brush's limits if there is one.
 std::vector<uint8_t> masked(Editing& editing, const EspBrush* brush, float opacity) {
-    EspDrawDef draw = espDefaultDrawDef();
+    esp::DrawDef draw;
     draw.width = kWidth;
     draw.height = kHeight;
     draw.camera = editing.document->scene().camera;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <regex>
 
+#include "plugin_api/espalier.hpp"
 #include "sample_game/grammar_files.hpp"
 #include "sample_game/settings.hpp"
 #include "tests/editor/editing.hpp"
@@ -174,8 +175,8 @@ TEST_CASE("a project whose grammar has lost a parameter opens and tells of it; a
 
     folder.write("lost.json", replaced(readAll(scene), "\"params\": {", "\"params\": {\"lost\": 3,"));
     EspContext* context = nullptr;
-    const EspContextDef def = espDefaultContextDef();
-    REQUIRE(espCreate(&def, &context) == ESP_OK);
+    const EspContextDef def = esp::defaults<EspContextDef>();
+    REQUIRE(espCreate(ESP_VERSION, &def, &context) == ESP_OK);
     {
         Document refused(context);
         std::string error;

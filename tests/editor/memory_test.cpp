@@ -1,6 +1,7 @@
 // Growth that asks for far more than what stood: it can be given up, and its memory is given back.
 #include <vector>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/editor/editing.hpp"
 
 using namespace espalier::document;
@@ -17,7 +18,7 @@ struct Place : Editing {
         return s;
     }
     std::vector<uint8_t> picture() {
-        EspDrawDef draw = espDefaultDrawDef();
+        esp::DrawDef draw;
         draw.camera = document->scene().camera;
         draw.look = document->scene().look;
         draw.width = 320;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <glm/glm.hpp>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/editor/editing.hpp"
 #include "tools/document/project.hpp"
 #include "tools/scene/text_file.hpp"
@@ -391,7 +392,7 @@ TEST_CASE("a town's layer of colours is painted, shown in its colours, and told 
     REQUIRE_MESSAGE(editing.perform(editing.document->withText(0, tinted)), editing.error);
     REQUIRE_MESSAGE(editing.document->scene().grammars[0].error.empty(), editing.document->scene().grammars[0].error);
     REQUIRE_MESSAGE(editing.perform(FillLayer{"shade", 0, {.8f, .1f, 0}}), editing.error);
-    EspDrawDef draw = espDefaultDrawDef();
+    esp::DrawDef draw;
     draw.width = 160;
     draw.height = 90;
     draw.camera = editing.document->scene().camera;

@@ -11,82 +11,82 @@ using namespace espalier;
 
 namespace {
 
-EspDrawDef asked() {
-    EspDrawDef draw{};
-    draw.look.lodPixels = 1;
-    draw.look.leafPixels = 8;
-    return draw;
+EspLook asked() {
+    EspLook look{};
+    look.lodPixels = 1;
+    look.leafPixels = 8;
+    return look;
 }
 
 // So many frames of `frameMs` each with `leaves` in view; the last one's.
-EspDrawDef after(int frames, scene::MovingPicture& picture, double frameMs, uint32_t leaves, bool strokes = false) {
-    EspDrawDef draw{};
+EspLook after(int frames, scene::MovingPicture& picture, double frameMs, uint32_t leaves, bool strokes = false) {
+    EspLook look{};
     for (int i = 0; i < frames; ++i) {
-        draw = asked();
-        picture.prepare(draw, true, frameMs, true);
+        look = asked();
+        picture.prepare(look, true, frameMs, true);
         picture.drew(frameMs, leaves, strokes);
     }
-    return draw;
+    return look;
 }
 
 }  // namespace
 
 TEST_CASE("a slow window draws what moves coarsely, at half the size, and all of it again when it rests") {
     scene::MovingPicture picture;
-    EspDrawDef draw = asked();
-    CHECK(picture.prepare(draw, true, 200, true) == 0.5f);
-    CHECK(draw.look.quick == 1);
-    CHECK(draw.look.lodPixels > 1);
-    CHECK(draw.look.leafPixels > 8);
+    EspLook look = asked();
+    CHECK(picture.prepare(look, true, 200, true) == 0.5f);
+    CHECK(look.quick == 1);
+    CHECK(look.lodPixels > 1);
+    CHECK(look.leafPixels > 8);
     CHECK(!picture.coarse());  // it wasn't drawn
     picture.drew(200, 100'000);
     CHECK(picture.coarse());
-    draw = asked();
-    CHECK(picture.prepare(draw, true, 5, false) == 1);  // fast since it is coarse: it stays so
-    CHECK(draw.look.quick == 1);
-    draw = asked();
-    CHECK(picture.prepare(draw, false, 200, true) == 1);
+    look = asked();
+    CHECK(picture.prepare(look, true, 5, false) == 1);  // fast since it is coarse: it stays so
+    CHECK(look.quick == 1);
+    look = asked();
+    CHECK(picture.prepare(look, false, 200, true) == 1);
     picture.drew(200, 100'000);
-    CHECK(draw.look.quick == 0);
-    CHECK(draw.look.lodPixels == 1);
-    CHECK(draw.look.leafPixels == 8);
+    CHECK(look.quick == 0);
+    CHECK(look.lodPixels == 1);
+    CHECK(look.leafPixels == 8);
     CHECK(!picture.coarse());
 }
 
 TEST_CASE("a fast window draws what moves as what rests") {
     scene::MovingPicture picture;
-    EspDrawDef draw = asked();
-    CHECK(picture.prepare(draw, true, 8, true) == 1);
+    EspLook look = asked();
+    CHECK(picture.prepare(look, true, 8, true) == 1);
     picture.drew(9, 100'000);
-    CHECK(draw.look.quick == 0);
-    CHECK(draw.look.leafPixels == 8);
+    CHECK(look.quick == 0);
+    CHECK(look.leafPixels == 8);
     CHECK(!picture.coarse());
 }
 
 TEST_CASE("leaves are thinned out while frames are late, down to those that are always in view, and come back") {
     scene::MovingPicture picture;
-    const float first = after(5, picture, 200, 100'000).look.leafPixels;
-    const float later = after(9, picture, 200, 100'000).look.leafPixels;
+    const float first = after(5, picture, 200, 100'000).leafPixels;
+    const float later = after(9, picture, 200, 100'000).leafPixels;
     CHECK(first > 8 * 1.5f);
     CHECK(later > first);
     CHECK(later <= 8 * 4.0f);
     // Late, but with no more leaves than that: they come back.
-    CHECK(after(9, picture, 200, scene::MovingDetail::kLeaves - 1).look.leafPixels < later);
+    CHECK(after(9, picture, 200, scene::MovingDetail::kLeaves - 1).leafPixels < later);
     after(15, picture, 200, 100'000);
-    CHECK(after(9, picture, 20, 100'000).look.leafPixels < later);
+    CHECK(after(9, picture, 20, 100'000).leafPixels < later);
 }
 
 TEST_CASE("where small pictures with few leaves are late, all is drawn coarser, and as before once they are in time") {
     constexpr float kLod = scene::MovingDetail::kLod, kMost = scene::MovingDetail::kMostLod;
     constexpr uint32_t few = scene::MovingDetail::kLeaves;
     scene::MovingPicture picture;
-    CHECK(after(20, picture, 75, 10 * few).look.lodPixels == doctest::Approx(kLod));   // leaves are given up first
-    CHECK(after(20, picture, 75, few, true).look.lodPixels == doctest::Approx(kLod));  // a stroke's may take longer
-    CHECK(after(18, picture, 75, few).look.lodPixels > 0.95f * kMost);
+    CHECK(after(20, picture, 75, 10 * few).lodPixels == doctest::Approx(kLod));   // leaves are given up first
+    CHECK(after(20, picture, 75, few, true).lodPixels == doctest::Approx(kLod));  // a stroke's may take longer
+    CHECK(after(18, picture, 75, few).lodPixels > 0.95f * kMost);
     // Then the picture becomes smaller, with the same detail in its larger pixels.
-    CHECK(after(60, picture, 75, few).look.lodPixels == doctest::Approx(kMost / 1.2f));
-    CHECK(after(5, picture, 60, few).look.lodPixels == doctest::Approx(kMost / 1.2f));  // in time because it is coarse
-    CHECK(after(60, picture, 50, few).look.lodPixels == doctest::Approx(kLod / 1.2f));
+    CHECK(after(60, picture, 75, few).lodPixels == doctest::Approx(kMost / 1.2f));
+    CHECK(after(5, picture, 60, few).lodPixels == doctest::Approx(kMost / 1.2f));  // in time because it is coarse
+    CHECK(after(60, picture, 50, few).lodPixels == doctest::Approx(kLod / 1.2f));
 }
 
 namespace {
@@ -105,10 +105,10 @@ struct PretendWindow {
     int move(int count, bool strokes = false) {
         int changes = 0;
         for (int i = 0; i < count; ++i) {
-            EspDrawDef draw = asked();
-            const float before = std::exchange(share, picture.prepare(draw, true, 200, true));
+            EspLook look = asked();
+            const float before = std::exchange(share, picture.prepare(look, true, 200, true));
             if (i > 0 && before != share) ++changes;
-            const float lod = draw.look.lodPixels * 0.5f / share;
+            const float lod = look.lodPixels * 0.5f / share;
             spends = spends || cost(0.5f) >= 0.9 * scene::MovingDetail::kFrameMs;
             if (!spends)
                 CHECK(lod == doctest::Approx(scene::MovingDetail::kLod));
@@ -120,8 +120,8 @@ struct PretendWindow {
         return changes;
     }
     void rest() {
-        EspDrawDef draw = asked();
-        picture.prepare(draw, false, 200, true);
+        EspLook look = asked();
+        picture.prepare(look, false, 200, true);
         took.push_back(300);
         picture.drew(300, 30'000);
     }
@@ -192,7 +192,7 @@ TEST_CASE("a stroke's frames, which may take longer, don't make the picture smal
 
 TEST_CASE("whole pictures of what moves are as coarse as half ones are in their own pixels") {
     scene::MovingPicture picture;
-    EspDrawDef draw = asked();
-    CHECK(picture.prepare(draw, true, 200, false) == 1);
-    CHECK(draw.look.lodPixels == scene::MovingDetail::kLod);
+    EspLook look = asked();
+    CHECK(picture.prepare(look, true, 200, false) == 1);
+    CHECK(look.lodPixels == scene::MovingDetail::kLod);
 }

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "runtime/gpu/features.hpp"
 #include "tests/gpu/gpu_test.hpp"
 #include "tests/support/driver_between.hpp"
 
@@ -89,12 +90,60 @@ TEST_CASE("an incomplete host is refused") {
     CHECK(adopted.failure().text().find("queue family 77") != std::string::npos);
 }
 
+// What a host says that it made its device with, and what becomes of that.
+struct Made {
+    Features features;
+    const char* extension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
+    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+
+    Made() {
+        chooseFeatures(Features(), features);
+        info.pNext = &features.core;
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &extension;
+    }
+    std::string adopt(HostDevice host) const {
+        host.made = &info;
+        Result<std::unique_ptr<Device>> adopted = Device::adopt(host);
+        return adopted ? "" : adopted.failure().text();
+    }
+};
+
 TEST_CASE("textures of a host's device are filtered by angle where the host says that it may be") {
     TestDevice t;
     HostDevice host = hostOf(t.device);
     CHECK(must(Device::adopt(host))->info().maxAnisotropy == 1);
-    host.anisotropy = true;
+    Made made;
+    host.made = &made.info;
+    CHECK(must(Device::adopt(host))->info().maxAnisotropy == 1);
+    made.features.core.features.samplerAnisotropy = VK_TRUE;
     CHECK(must(Device::adopt(host))->info().maxAnisotropy == t.device.info().maxAnisotropy);
+}
+
+TEST_CASE("a host's device that was made without what is required is refused, and what it lacks is named") {
+    TestDevice t;
+    const HostDevice host = hostOf(t.device);
+    Made made;
+    CHECK(made.adopt(host) == "");
+    made.features.v12.timelineSemaphore = VK_FALSE;
+    made.features.core.features.shaderInt64 = VK_FALSE;
+    CHECK(made.adopt(host).find("shaderInt64, timelineSemaphore") != std::string::npos);
+    // Structs of one feature each say the same.
+    VkPhysicalDeviceTimelineSemaphoreFeatures single{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES};
+    single.timelineSemaphore = VK_TRUE;
+    made.features.v13.pNext = &single;
+    made.features.core.features.shaderInt64 = VK_TRUE;
+    CHECK(made.adopt(host) == "");
+    // Core features, in the other place for them.
+    made.features.core.features = {};
+    CHECK(made.adopt(host).find("multiDrawIndirect") != std::string::npos);
+    Features required;
+    chooseFeatures(Features(), required);
+    made.info.pEnabledFeatures = &required.core.features;
+    made.info.pNext = &made.features.v11;
+    CHECK(made.adopt(host) == "");
+    made.info.enabledExtensionCount = 0;
+    CHECK(made.adopt(host).find(VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME) != std::string::npos);
 }
 
 TEST_CASE("a host's device works, with the host's memory, commands and frames") {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/paint/fixture.hpp"
 
 using namespace espalier;
@@ -117,10 +118,10 @@ TEST_CASE("a pruned branch stays cut whatever changes, and grows back as it was"
     CHECK(cut.nodes < whole.nodes);
     uint32_t count = 0;
     CHECK(espBranchPath(painting.context, hit.branch, nullptr, &count) == ESP_INVALID_ARGUMENT);
-    EspGrammarDef def{"again", kMaskedIvy, std::strlen(kMaskedIvy)};
+    EspGrammarDef def = esp::grammarDef("again", kMaskedIvy);
     painting.ok(espRecompileGrammar(painting.context, grammar, &def));
     CHECK(painting.grown().hash == cut.hash);
-    EspGrowDef grow = espDefaultGrowDef();
+    EspGrowDef grow = esp::defaults<EspGrowDef>();
     grow.maxDepth = 100;  // all anew
     painting.ok(espSetGrow(painting.context, &grow));
     CHECK(painting.grown().hash == cut.hash);
@@ -139,7 +140,7 @@ TEST_CASE("a branch tells why it goes no further: its rules, its condition, the 
     const EspSeed seed = painting.plant(grammar, {.5f, .05f, 0}, kUp);
     const auto plant = [&] { return plantOf(painting, seed); };
     const auto limit = [&](uint32_t nodes, uint32_t depth) {
-        EspGrowDef grow = espDefaultGrowDef();
+        EspGrowDef grow = esp::defaults<EspGrowDef>();
         grow.maxNodes = nodes;
         grow.maxDepth = depth;
         painting.ok(espSetGrow(painting.context, &grow));

@@ -1,6 +1,7 @@
 // Surfaces that come and go: what stands on others isn't derived again unless it can get to them.
 #include <random>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/paint/fixture.hpp"
 
 using namespace espalier;
@@ -88,7 +89,7 @@ TEST_CASE(
     painting.plant(grammar, {-.2f, 0, 1}, {1, 0, 0}, 2);
     const uint64_t bare = painting.hash();
     const float half = 0.25f;
-    EspLayerDef def = espDefaultLayerDef();
+    EspLayerDef def = esp::defaults<EspLayerDef>();
     def.surface = against;
     def.name = "mask";
     def.space = ESP_LAYER_WALK_UV;

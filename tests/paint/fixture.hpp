@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "plugin_api/espalier.h"
+#include "plugin_api/espalier.hpp"
 #include "runtime/surface/surface.hpp"
 #include "shaders/shared/exact.h"
 #include "tests/bake/small_models.hpp"
@@ -48,9 +48,9 @@ struct Painting {
         auto read = readSurface(path);
         REQUIRE(read);
         data = std::move(*read);
-        EspContextDef def = espDefaultContextDef();
+        EspContextDef def = esp::defaults<EspContextDef>();
         def.validation = 1;
-        if (espCreate(&def, &context) != ESP_OK) FAIL(std::string(espLastError(nullptr)));
+        if (espCreate(ESP_VERSION, &def, &context) != ESP_OK) FAIL(std::string(espLastError(nullptr)));
         ok(espLoadSurface(context, path.c_str(), nullptr, &surface));
     }
     ~Painting() {
@@ -99,19 +99,19 @@ struct Painting {
     }
     // Returns what it has set.
     EspGrowDef growBy(bool shadersOnly) const {
-        EspGrowDef grow = espDefaultGrowDef();
+        EspGrowDef grow = esp::defaults<EspGrowDef>();
         grow.shadersOnly = shadersOnly;
         ok(espSetGrow(context, &grow));
         return grow;
     }
     EspGrammar grammar(const char* text) const {
-        EspGrammarDef def{"paint test", text, std::string(text).size()};
+        EspGrammarDef def = esp::grammarDef("paint test", text);
         EspGrammar grammar{};
         ok(espCompileGrammar(context, &def, &grammar));
         return grammar;
     }
     EspSeed plant(EspGrammar grammar, glm::vec3 at, glm::vec3 direction, uint32_t number = 1) const {
-        EspSeedDef def = espDefaultSeedDef();
+        EspSeedDef def = esp::defaults<EspSeedDef>();
         def.grammar = grammar;
         for (int i = 0; i < 3; ++i) {
             def.position[i] = at[i];
@@ -131,7 +131,7 @@ struct Painting {
     // Of what stands, which is what growing all anew gives.
     uint64_t hash() const {
         const uint64_t stands = grown().hash;
-        EspGrowDef grow = espDefaultGrowDef();
+        EspGrowDef grow = esp::defaults<EspGrowDef>();
         grow.maxDepth = 100 + timesAnew++;
         ok(espSetGrow(context, &grow));
         CHECK(grown().hash == stands);
@@ -153,7 +153,7 @@ inline EspTransform movedBy(glm::vec3 by) {
 }
 
 inline EspBrush brushOn(const char* layer, float radius, float strength = 1, float hardness = 0) {
-    EspBrush brush = espDefaultBrush();
+    EspBrush brush = esp::defaults<EspBrush>();
     brush.layer = layer;
     brush.radius = radius;
     brush.strength = strength;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/paint/fixture.hpp"
 
 using namespace espalier;
@@ -81,7 +82,7 @@ TEST_CASE("shaders grow what native code grows where the only surface isn't the 
     painting.plant(painting.grammar(kMaskedIvy), kFoot + glm::vec3(5, 0, 0), kUp);
     const EspStats native = painting.grown();
     CHECK(native.nodes > 20);
-    EspGrowDef grow = espDefaultGrowDef();
+    EspGrowDef grow = esp::defaults<EspGrowDef>();
     grow.shadersOnly = 1;
     painting.ok(espSetGrow(painting.context, &grow));
     CHECK(painting.grown().hash == native.hash);

@@ -1,6 +1,7 @@
 // Layers come and go with the grammars that read them.
 #include <string>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/paint/fixture.hpp"
 
 using namespace espalier;
@@ -26,7 +27,7 @@ TEST_CASE("a layer that no grammar reads any more makes room for another") {
     REQUIRE(free > 20);
     for (int i = 0; i < 40; ++i) {
         const std::string layer = "l" + std::to_string(i), text = reading(layer);
-        const EspGrammarDef def{"paint test", text.c_str(), text.size()};
+        const EspGrammarDef def = esp::grammarDef("paint test", text);
         painting.ok(espRecompileGrammar(painting.context, grammar, &def));
         CHECK(painting.grown().nodes == free);
         // It is this layer that the plant heeds, not the one whose number it got.
@@ -42,7 +43,7 @@ TEST_CASE("a layer that no grammar reads any more makes room for another") {
     std::string many;
     for (int i = 0; i < 17; ++i) many += "context many" + std::to_string(i) + " = 1\n";
     many += kMaskedIvy;
-    const EspGrammarDef def{"paint test", many.c_str(), many.size()};
+    const EspGrammarDef def = esp::grammarDef("paint test", many);
     CHECK(espRecompileGrammar(painting.context, grammar, &def) == ESP_INVALID_CONTENT);
     CHECK(std::string(espLastError(painting.context)).find("16 are the most") != std::string::npos);
 }
@@ -61,7 +62,7 @@ std::string atTheBound(const char* letter) {
 TEST_CASE("a grammar that reads as many layers as there may be is compiled anew with others in their place") {
     const Painting painting;
     const EspGrammar grammar = painting.grammar(atTheBound("a").c_str());
-    EspSeedDef seed = espDefaultSeedDef();
+    EspSeedDef seed = esp::defaults<EspSeedDef>();
     seed.grammar = grammar;
     seed.symbol = "Ivy";
     seed.position[1] = -.9f;
@@ -77,12 +78,12 @@ TEST_CASE("a grammar that reads as many layers as there may be is compiled anew 
         text.replace(text.find("Ivy ->"), 6, "Oak ->");
         text.replace(text.find("mask = 1"), 8, "cover = 1");
         text.replace(text.find("mask(texCoord)"), 4, "cover");
-        const EspGrammarDef def{"lost", text.c_str(), text.size()};
+        const EspGrammarDef def = esp::grammarDef("lost", text);
         CHECK(espRecompileGrammar(painting.context, grammar, &def) == ESP_INVALID_CONTENT);
         CHECK(std::string(espLastError(painting.context)).find("'Ivy'") != std::string::npos);
     }
     SUBCASE("which succeeds") {
-        const EspGrammarDef def{"bound", text.c_str(), text.size()};
+        const EspGrammarDef def = esp::grammarDef("bound", text);
         painting.ok(espRecompileGrammar(painting.context, grammar, &def));
     }
     CHECK(painting.grown().nodes == free);
@@ -98,10 +99,10 @@ TEST_CASE("layers that roofs read count nothing among those of plants") {
     painting.grammar((roofs + "House -> Extrude(wallHeight) {NULL, NULL}\n").c_str());
     painting.plant(painting.grammar(atTheBound("a").c_str()), {0, -.9f, 1}, {0, 1, 0});
     CHECK(painting.grown().nodes > 20);
-    EspDrawDef def = espDefaultDrawDef();
+    esp::DrawDef def;
     def.width = 32;
     def.height = 18;
-    def.camera = espFrameAll(painting.context);
+    def.camera = esp::frameAll(painting.context);
     def.look.view = ESP_VIEW_LAYER;
     for (const char* name : {"mask", "roof3"}) {
         def.look.viewLayer = name;
@@ -119,7 +120,7 @@ TEST_CASE("a layer that comes into being is read by grammars that wanted another
     painting.plant(painting.grammar(text.c_str()), {0, -.9f, 1}, {0, 1, 0});
     const uint64_t forbidden = painting.grown().nodes;
     const std::vector<float> there = painting.layer("mask");  // the layer's fill: no texel will be another
-    EspLayerDef def = espDefaultLayerDef();
+    EspLayerDef def = esp::defaults<EspLayerDef>();
     def.surface = painting.surface;
     def.name = "mask";
     def.space = ESP_LAYER_TEXELS;
@@ -129,7 +130,7 @@ TEST_CASE("a layer that comes into being is read by grammars that wanted another
     painting.ok(espImportLayer(painting.context, &def, &stroke));
     const EspStats free = painting.grown();
     CHECK(free.nodes > forbidden + 20);
-    EspGrowDef grow = espDefaultGrowDef();
+    EspGrowDef grow = esp::defaults<EspGrowDef>();
     grow.maxDepth = 100;  // all anew
     painting.ok(espSetGrow(painting.context, &grow));
     CHECK(painting.grown().hash == free.hash);
@@ -170,9 +171,9 @@ TEST_CASE("a grammar that plants grow by doesn't become one of roofs") {
     const EspGrammar ivy = painting.grammar(kMaskedIvy);
     const char* roofs =
         "House -> Extrude(wallHeight) {NULL, Top}\nTop -> Join(roofHeight, roofPos1, roofPos2) {NULL, NULL, Top}\n";
-    const EspGrammarDef def{"paint test", roofs, std::string(roofs).size()};
+    const EspGrammarDef def = esp::grammarDef("paint test", roofs);
     painting.ok(espRecompileGrammar(painting.context, ivy, &def));  // nobody minds
-    const EspGrammarDef back{"paint test", kMaskedIvy, std::string(kMaskedIvy).size()};
+    const EspGrammarDef back = esp::grammarDef("paint test", kMaskedIvy);
     painting.ok(espRecompileGrammar(painting.context, ivy, &back));
     painting.plant(ivy, {0, -.9f, 1}, {0, 1, 0});
     const EspStats before = painting.grown();

@@ -1,6 +1,7 @@
 // More surfaces than a byte counts.
 #include <vector>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/paint/fixture.hpp"
 
 using namespace espalier;
@@ -25,7 +26,7 @@ struct Row {
         return painting.grown().nodes;
     }
     void fill(const char* layer, size_t surface, float value) const {
-        EspLayerDef def = espDefaultLayerDef();
+        EspLayerDef def = esp::defaults<EspLayerDef>();
         def.surface = surfaces[surface];
         def.name = layer;
         def.space = ESP_LAYER_WALK_UV;
@@ -47,7 +48,7 @@ TEST_CASE("an edit on one of 300 surfaces regrows what reads it there, and nothi
     REQUIRE(both > one);
     for (const bool shadersOnly : {false, true}) {
         CAPTURE(shadersOnly);
-        EspGrowDef grow = espDefaultGrowDef();
+        EspGrowDef grow = esp::defaults<EspGrowDef>();
         grow.shadersOnly = shadersOnly;
         row.painting.ok(espSetGrow(row.painting.context, &grow));
         const uint64_t before = row.painting.grown().hash;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <random>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/paint/fixture.hpp"
 
 using namespace espalier;
@@ -207,7 +208,7 @@ TEST_CASE("erasing leads back to the fill that a grammar declares, and layers ou
     CHECK(*std::min_element(layer.begin(), layer.end()) == 0);
     CHECK(*std::max_element(layer.begin(), layer.end()) == .75f);
     const char* text = "context mask = 0.75\nIvy -> Marching(0.2, 0, mask(texCoord)) {Ivy}\n";
-    EspGrammarDef def{"again", text, std::strlen(text)};
+    EspGrammarDef def = esp::grammarDef("again", text);
     painting.ok(espRecompileGrammar(painting.context, grammar, &def));
     CHECK(painting.layer("mask") == layer);
     REQUIRE(espPaintedLayerCount(painting.context) == 1);
@@ -366,7 +367,7 @@ TEST_CASE("what a layer gave is taken back bit for bit, and an import can be und
     Painting painting;
     painting.stroke(brushOn("paint", .9f, .7f), {dabAt({1, 1, 0}), dabAt({0, 1, 1})});
     const std::vector<float> painted = painting.layer("paint");
-    EspLayerDef def = espDefaultLayerDef();
+    EspLayerDef def = esp::defaults<EspLayerDef>();
     def.surface = painting.surface;
     def.name = "copy";
     def.space = ESP_LAYER_TEXELS;

@@ -7,6 +7,7 @@
 #include <cstdarg>
 #include <random>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/paint/editions.hpp"
 #include "tests/paint/twins.hpp"
 
@@ -18,7 +19,7 @@ struct RandomEdits {
         : twins(scene), random(seed), poses_(std::move(where)), filled_(fills) {
         for (uint32_t g = 0; g < 2; ++g) {
             texts_[g] = editionOf(g, 0);
-            const EspGrammarDef def{"edits", texts_[g].c_str(), texts_[g].size()};
+            const EspGrammarDef def = esp::grammarDef("edits", texts_[g]);
             grammars_.push_back(twins.make<EspGrammar>(
                 [&](EspContext* c, EspGrammar* out) { return espCompileGrammar(c, &def, out); }));
         }
@@ -106,11 +107,16 @@ struct RandomEdits {
         REQUIRE(espSeedInfo(twins.context(), seed, &info) == ESP_OK);
         return info;
     }
+    EspSeedDef defOf(EspSeed seed) {
+        EspSeedDef def{};
+        REQUIRE(espSeedDef(twins.context(), seed, &def) == ESP_OK);
+        return def;
+    }
 
     template <class Grow>
     bool stroke(Grow&& grow) {
         const char* modes[] = {"paint", "erase", "smooth"};
-        EspBrush brush = espDefaultBrush();
+        EspBrush brush = esp::defaults<EspBrush>();
         brush.layer = layerName();
         brush.mode = EspBrushMode(below(5) % 3);
         brush.radius = below(3) ? in(.02f, .12f) : in(.1f, .6f);
@@ -171,7 +177,7 @@ struct RandomEdits {
         fill(layer, below(2) ? in(0, 1) : 1);
     }
     void import() {
-        EspLayerDef def = espDefaultLayerDef();
+        EspLayerDef def = esp::defaults<EspLayerDef>();
         def.surface = twins.surfaces[below(uint32_t(twins.surfaces.size()))];
         def.name = layerName();
         def.space = below(2) ? ESP_LAYER_WALK_UV : ESP_LAYER_TEXELS;
@@ -197,7 +203,7 @@ struct RandomEdits {
     }
     void dropLayer() {
         if (filled_) return;
-        EspLayerDef def = espDefaultLayerDef();
+        EspLayerDef def = esp::defaults<EspLayerDef>();
         def.surface = twins.surfaces[below(uint32_t(twins.surfaces.size()))];
         def.name = layerName();
         note("drop %s from %x", def.name, def.surface.id);
@@ -228,7 +234,7 @@ struct RandomEdits {
         const EspSeed seed = anySeed();
         if (!seed.id) return;
         float value = 0;
-        const std::string name = param(infoOf(seed).def.grammar.id == grammars_[1].id, &value).name;
+        const std::string name = param(defOf(seed).grammar.id == grammars_[1].id, &value).name;
         const uint32_t count = below(4) ? 1 : 0;
         note("%s %s of seed %x: %g", count ? "give" : "take", name.c_str(), seed.id, double(value));
         REQUIRE(twins.both(
@@ -238,12 +244,12 @@ struct RandomEdits {
         const uint32_t g = below(2), edition = below(2) ? 0 : below(5);
         note("write edition %u of grammar %u", edition, g);
         texts_[g] = editionOf(g, edition);
-        const EspGrammarDef def{"edits", texts_[g].c_str(), texts_[g].size()};
+        const EspGrammarDef def = esp::grammarDef("edits", texts_[g]);
         REQUIRE(twins.both([&](EspContext* c) { return espRecompileGrammar(c, twins.in(c, grammars_[g]), &def); }));
     }
 
     void plant() {
-        EspSeedDef def = espDefaultSeedDef();
+        EspSeedDef def = esp::defaults<EspSeedDef>();
         const EspHit at = place();
         def.grammar = grammars_[below(3) == 0];
         for (int i = 0; i < 3; ++i) def.position[i] = at.position[i], def.direction[i] = in(-1, 1);
@@ -265,7 +271,7 @@ struct RandomEdits {
         const float direction[3] = {in(-1, 1), in(-1, 1), in(-1, 1)};
         forSeed(turn ? "turn" : "move", [&](EspContext* c, EspSeed seed) {
             const EspSeed ours = twins.in(twins.context(), seed);
-            return espMoveSeed(c, seed, turn ? infoOf(ours).def.position : at.position, direction);
+            return espMoveSeed(c, seed, turn ? defOf(ours).position : at.position, direction);
         });
     }
     // Few numbers, so that plants follow each other under one.

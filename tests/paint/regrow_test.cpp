@@ -1,6 +1,7 @@
 // What regrows after an edit, and what doesn't: by counters and hashes, against growth anew.
 #include <algorithm>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/paint/fixture.hpp"
 
 using namespace espalier;
@@ -12,7 +13,7 @@ TEST_CASE("a text that says the same in other words grows nothing anew, and any 
     painting.plant(grammar, {1, -.9f, 0}, {0, 1, 0});
     const EspStats first = painting.grown();
     const auto expansions = [&](std::string text) {
-        const EspGrammarDef def{"words", text.c_str(), text.size()};
+        const EspGrammarDef def = esp::grammarDef("words", text);
         painting.ok(espRecompileGrammar(painting.context, grammar, &def));
         return painting.grown().expansions;
     };
@@ -98,7 +99,7 @@ TEST_CASE("a dab beside a plant costs no growth, nor does its undoing, and dabs 
     painting.ok(espFillLayer(painting.context, "mask", 1, &filled));
     CHECK(painting.layer("mask") != layer);
     CHECK(painting.grown().expansions == free.expansions);
-    EspLayerDef def = espDefaultLayerDef();
+    EspLayerDef def = esp::defaults<EspLayerDef>();
     def.surface = painting.surface;
     def.name = "mask";
     def.space = ESP_LAYER_TEXELS;

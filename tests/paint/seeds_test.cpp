@@ -4,6 +4,7 @@
 #include <cstring>
 #include <set>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/paint/fixture.hpp"
 
 using namespace espalier;
@@ -15,6 +16,12 @@ EspSeedInfo infoOf(const Painting& painting, EspSeed seed) {
     EspSeedInfo info{};
     painting.ok(espSeedInfo(painting.context, seed, &info));
     return info;
+}
+
+EspSeedDef defOf(const Painting& painting, EspSeed seed) {
+    EspSeedDef def{};
+    painting.ok(espSeedDef(painting.context, seed, &def));
+    return def;
 }
 
 // Of what is drawn, metres.
@@ -49,25 +56,26 @@ TEST_CASE("seeds are listed, moved and given other numbers, and planted again fr
     EspSeed none{};
     CHECK(espSeedAt(painting.context, 2, &none) == ESP_INVALID_ARGUMENT);
 
-    EspSeedInfo info = infoOf(painting, first), other = infoOf(painting, second);
-    CHECK(info.def.number == 1);
-    CHECK(info.def.twin == 1);
-    CHECK(other.def.twin == 2);
+    const EspSeedInfo info = infoOf(painting, first);
+    EspSeedDef def = defOf(painting, first), other = defOf(painting, second);
+    CHECK(def.number == 1);
+    CHECK(def.twin == 1);
+    CHECK(other.twin == 2);
     CHECK(info.normal[0] == doctest::Approx(1));
     CHECK(info.position[1] == doctest::Approx(-.8));
     CHECK(info.direction[1] == doctest::Approx(1));
-    const std::string symbols[] = {info.def.symbol, other.def.symbol};  // they go with their seeds
-    info.def.symbol = symbols[0].c_str();
-    other.def.symbol = symbols[1].c_str();
+    const std::string symbols[] = {def.symbol, other.symbol};  // they go with their seeds
+    def.symbol = symbols[0].c_str();
+    other.symbol = symbols[1].c_str();
     // Away and planted again: the same plant, whichever of the two comes back first.
     painting.ok(espRemoveSeed(painting.context, first));
     painting.ok(espRemoveSeed(painting.context, second));
     EspSeed again{};
-    painting.ok(espPlant(painting.context, &other.def, &again));
-    CHECK(infoOf(painting, again).def.twin == 2);
-    CHECK(espPlant(painting.context, &other.def, &none) == ESP_INVALID_ARGUMENT);  // it is planted already
+    painting.ok(espPlant(painting.context, &other, &again));
+    CHECK(defOf(painting, again).twin == 2);
+    CHECK(espPlant(painting.context, &other, &none) == ESP_INVALID_ARGUMENT);  // it is planted already
     EspSeed back{};
-    painting.ok(espPlant(painting.context, &info.def, &back));
+    painting.ok(espPlant(painting.context, &def, &back));
     CHECK(painting.grown().hash == both);
 
     // To another face and back; another number and back.
@@ -78,7 +86,7 @@ TEST_CASE("seeds are listed, moved and given other numbers, and planted again fr
     painting.ok(espMoveSeed(painting.context, back, home, up));
     CHECK(painting.grown().hash == both);
     painting.ok(espSetSeedNumber(painting.context, back, 7, 0));
-    CHECK(infoOf(painting, back).def.twin == 1);
+    CHECK(defOf(painting, back).twin == 1);
     CHECK(painting.grown().hash != both);
     CHECK(espSetSeedNumber(painting.context, back, 1, 2) == ESP_INVALID_ARGUMENT);
     painting.ok(espSetSeedNumber(painting.context, back, 1, 1));
@@ -91,17 +99,17 @@ TEST_CASE("seeds are listed, moved and given other numbers, and planted again fr
 TEST_CASE("what a seed and a grammar tell as text stays where it is while others come") {
     Painting painting;
     const EspGrammar grammar = painting.grammar(kMaskedIvy);
-    EspSeedDef def = espDefaultSeedDef();
+    EspSeedDef def = esp::defaults<EspSeedDef>();
     def.grammar = grammar;
     def.symbol = "Ivy";
     EspSeed first{};
     painting.ok(espPlant(painting.context, &def, &first));
-    const char *symbol = infoOf(painting, first).def.symbol, *warnings = espGrammarWarnings(painting.context, grammar);
+    const char *symbol = defOf(painting, first).symbol, *warnings = espGrammarWarnings(painting.context, grammar);
     for (int i = 0; i < 40; ++i) {
         painting.plant(grammar, kFoot, kUp);
         painting.grammar(kMaskedIvy);
     }
-    CHECK(infoOf(painting, first).def.symbol == symbol);
+    CHECK(defOf(painting, first).symbol == symbol);
     CHECK(std::string(symbol) == "Ivy");
     CHECK(espGrammarWarnings(painting.context, grammar) == warnings);
 }
@@ -128,7 +136,7 @@ TEST_CASE("a seed's own settings are those of a grammar with these settings, and
     // The grammar's own value has no say; another seed has it still.
     painting.ok(espSetParam(painting.context, grammar, "reach", &shorter, 1));
     CHECK(painting.grown().hash == wanted);
-    EspGrammarDef def{"again", kMaskedIvy, std::strlen(kMaskedIvy)};
+    EspGrammarDef def = esp::grammarDef("again", kMaskedIvy);
     painting.ok(espRecompileGrammar(painting.context, grammar, &def));
     CHECK(painting.grown().hash == wanted);
     const EspSeed twin = painting.plant(grammar, {-1, -.8f, 0}, kUp);
@@ -159,10 +167,10 @@ TEST_CASE("a frozen plant outlives edits, and comes back from bytes") {
     const float shorter = .5f;
     painting.ok(espSetParam(painting.context, grammar, "reach", &shorter, 1));
     CHECK(painting.grown().hash == whole.hash);
-    EspGrammarDef def{"again", kMaskedIvy, std::strlen(kMaskedIvy)};
+    EspGrammarDef def = esp::grammarDef("again", kMaskedIvy);
     painting.ok(espRecompileGrammar(painting.context, grammar, &def));
     CHECK(painting.grown().hash == whole.hash);
-    EspGrowDef grow = espDefaultGrowDef();
+    EspGrowDef grow = esp::defaults<EspGrowDef>();
     grow.maxDepth = 100;  // all anew
     painting.ok(espSetGrow(painting.context, &grow));
     CHECK(painting.grown().hash == whole.hash);
@@ -215,7 +223,7 @@ TEST_CASE("a surface that moves takes its plants along and leaves the others alo
     painting.ok(espMoveSurface(painting.context, second, &beside));
     const EspStats after = painting.grown();
     CHECK(after.derivedNodes == 0);
-    EspGrowDef grow = espDefaultGrowDef();
+    EspGrowDef grow = esp::defaults<EspGrowDef>();
     grow.maxDepth = 100;  // all anew
     painting.ok(espSetGrow(painting.context, &grow));
     const EspStats anew = painting.grown();
@@ -302,13 +310,13 @@ TEST_CASE("a text that changes a rule lets what didn't use it stand, also where 
     }
     const EspStats before = painting.grown();
     text.replace(text.find("n < 3"), 5, "n < 4");
-    const EspGrammarDef def{"again", text.c_str(), text.size()};
+    const EspGrammarDef def = esp::grammarDef("again", text);
     painting.ok(espRecompileGrammar(painting.context, grammar, &def));
     const EspStats after = painting.grown();
     CHECK(after.nodes > before.nodes);
     CHECK(after.derivedNodes > 0);
     CHECK(after.derivedNodes < after.nodes / 2);
-    EspGrowDef grow = espDefaultGrowDef();
+    EspGrowDef grow = esp::defaults<EspGrowDef>();
     grow.maxDepth = 100;  // all anew
     painting.ok(espSetGrow(painting.context, &grow));
     CHECK(painting.grown().hash == after.hash);

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugin_api/espalier.h"
+#include "plugin_api/espalier.hpp"
 #include "tools/bake/bake.hpp"
 
 namespace espalier::test {
@@ -142,10 +142,10 @@ class Twins {
         if (id != 0) numbers_[c] = id & kContextBits;
     }
     static EspContext* created() {
-        EspContextDef def = espDefaultContextDef();
+        EspContextDef def = esp::defaults<EspContextDef>();
         def.log = [](void*, EspLogLevel, const char*) {};
         EspContext* context = nullptr;
-        if (espCreate(&def, &context) != ESP_OK) FAIL(std::string(espLastError(nullptr)));
+        if (espCreate(ESP_VERSION, &def, &context) != ESP_OK) FAIL(std::string(espLastError(nullptr)));
         return context;
     }
     static void must(EspContext* context, EspResult result) {
@@ -170,7 +170,7 @@ class Twins {
             s.chunks, s.branches, s.stopped, s.deadEnds, s.contacts);
     }
     void giveGrammar(EspContext* fresh, EspGrammar grammar, const std::string& text) {
-        const EspGrammarDef def{"edits", text.c_str(), text.size()};
+        const EspGrammarDef def = esp::grammarDef("edits", text);
         EspGrammar made{};
         must(fresh, espCompileGrammar(fresh, &def, &made));
         REQUIRE(made.id == in(fresh, grammar).id);
@@ -182,7 +182,7 @@ class Twins {
     }
     void giveLayer(EspContext* fresh, const char* name) {
         for (EspSurface surface : surfaces) {
-            EspLayerDef def = espDefaultLayerDef();
+            EspLayerDef def = esp::defaults<EspLayerDef>();
             must(context(), espReadLayer(context(), surface, name, nullptr, &def.width));
             std::vector<float> texels(size_t(def.width) * def.width);
             must(context(), espReadLayer(context(), surface, name, texels.data(), &def.width));
@@ -199,11 +199,13 @@ class Twins {
         EspSeedInfo info{};
         must(context(), espSeedAt(context(), index, &seed));
         must(context(), espSeedInfo(context(), seed, &info));
-        EspSeedDef def = info.def;
-        def.grammar = in(fresh, def.grammar);
+        EspSeedDef def{};
+        must(context(), espSeedDef(context(), seed, &def));
+        const EspGrammar own = def.grammar;
+        def.grammar = in(fresh, own);
         must(fresh, espPlant(fresh, &def, &made));
         for (const auto& [grammar, text] : grammars)
-            for (uint32_t i = 0; grammar.id == info.def.grammar.id && i < espParamCount(context(), grammar); ++i) {
+            for (uint32_t i = 0; grammar.id == own.id && i < espParamCount(context(), grammar); ++i) {
                 EspParamInfo param{};
                 must(context(), espParamInfo(context(), grammar, i, &param));
                 float value[3];
@@ -220,7 +222,7 @@ class Twins {
     }
 
     EspContext* all_[2] = {};
-    EspGrowDef grow_[2] = {espDefaultGrowDef(), espDefaultGrowDef()};
+    EspGrowDef grow_[2] = {esp::defaults<EspGrowDef>(), esp::defaults<EspGrowDef>()};
     EspStats grown_[2] = {};
     std::vector<std::string> files_;
     std::map<EspContext*, uint32_t> numbers_;  // kContextBits of each one's ids

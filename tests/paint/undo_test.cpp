@@ -1,4 +1,5 @@
 // What strokes keep to be undone by, and that undoing restores.
+#include "plugin_api/espalier.hpp"
 #include "tests/paint/fixture.hpp"
 #include "tests/support/same_bits.hpp"
 
@@ -23,7 +24,7 @@ struct Canvases {
         each([&](const char* name, EspSurface surface) {
             std::vector<float> picture(97 * 61);
             for (float& v : picture) v = unit(random);
-            EspLayerDef def = espDefaultLayerDef();
+            EspLayerDef def = esp::defaults<EspLayerDef>();
             def.surface = surface;
             def.name = name;
             def.space = ESP_LAYER_WALK_UV;
@@ -118,7 +119,7 @@ TEST_CASE("a stroke keeps what it changed and no more") {
 TEST_CASE("a stroke that goes on where another layer has come in its layer's place undoes what it did to that") {
     Painting painting;
     const auto set = [&](float value) {  // below 0: takes the layer away
-        EspLayerDef def = espDefaultLayerDef();
+        EspLayerDef def = esp::defaults<EspLayerDef>();
         def.surface = painting.surface;
         def.name = "mask";
         def.texels = value < 0 ? nullptr : &value;
@@ -234,7 +235,7 @@ TEST_CASE("layers that a stroke made go when it is undone, and come back as they
     }
     SUBCASE("nor one that has taken its place") {
         const std::vector<float> half(size_t(4), .5f);
-        EspLayerDef def = espDefaultLayerDef();
+        EspLayerDef def = esp::defaults<EspLayerDef>();
         def.surface = painting.surface;
         def.name = "mask";
         def.texels = half.data();

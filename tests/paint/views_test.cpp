@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/paint/fixture.hpp"
 
 using namespace espalier;
@@ -14,9 +15,10 @@ using Pixel = std::array<int, 3>;
 
 // The cube from the front, filling about half of the picture.
 std::vector<uint8_t> picture(const Painting& painting, EspLook look) {
-    EspDrawDef def = espDefaultDrawDef();
+    esp::DrawDef def;
     def.width = def.height = kSide;
-    def.camera = {{0, 0, 6}, {0, 0, 0}, {0, 1, 0}, .7f, .05f, {0, 0}};
+    def.camera = {
+        .eye = {0, 0, 6}, .target = {0, 0, 0}, .up = {0, 1, 0}, .fovY = .7f, .nearPlane = .05f, .shift = {0, 0}};
     def.look = look;
     painting.ok(espUpdate(painting.context));
     painting.ok(espDraw(painting.context, &def));
@@ -48,7 +50,7 @@ bool alike(Pixel a, Pixel b) {
 
 TEST_CASE("overdraw counts nothing where nothing is, and a fragment or two on a cube") {
     const Painting painting;
-    EspLook look = espDefaultLook();
+    EspLook look = esp::defaults<EspLook>();
     look.view = ESP_VIEW_OVERDRAW;
     const std::vector<uint8_t> shown = picture(painting, look);
     CHECK(alike(at(shown, 2, 2), legend(ESP_VIEW_OVERDRAW, 0)));
@@ -69,7 +71,7 @@ TEST_CASE("overdraw counts nothing where nothing is, and a fragment or two on a 
 
 TEST_CASE("each chart of a model has the colour that is told of it, and no two that follow each other have the same") {
     const Painting painting;
-    EspLook look = espDefaultLook();
+    EspLook look = esp::defaults<EspLook>();
     look.view = ESP_VIEW_CHARTS;
     const std::vector<uint8_t> shown = picture(painting, look);
     const float eye[3] = {.1f, .1f, 6}, ahead[3] = {0, 0, -1};
@@ -100,7 +102,7 @@ TEST_CASE("depth shows a stem and its branches each by the legend") {
         "Twig(n) -> Marching(0.05, 0.25, 1) {Twig(n + 1), Wood}\n"
         "Wood -> S(0.1) Shape(\"bark\", C1)\n");
     painting.plant(grammar, {0, -.8f, 1}, {0, 1, 0});
-    EspLook look = espDefaultLook();
+    EspLook look = esp::defaults<EspLook>();
     look.view = ESP_VIEW_DEPTH;
     const std::vector<uint8_t> shown = picture(painting, look);
     // Diagnostic views dim what faces away, so the shares of linear red and green are compared.
@@ -128,7 +130,7 @@ TEST_CASE("a layer of no opacity leaves the model as it is, a full one doesn't")
     const Painting painting;
     EspStroke stroke{};
     painting.ok(espFillLayer(painting.context, "moss", 1, &stroke));
-    EspLook look = espDefaultLook();
+    EspLook look = esp::defaults<EspLook>();
     const std::vector<uint8_t> shaded = picture(painting, look);
     look.view = ESP_VIEW_LAYER;
     look.viewLayer = "moss";
@@ -141,7 +143,7 @@ TEST_CASE("a layer of no opacity leaves the model as it is, a full one doesn't")
 TEST_CASE("ground that something else draws is seen in views of charts and layers only, and plants grow on it") {
     Painting painting;
     painting.ok(espDestroySurface(painting.context, painting.surface));
-    EspLook look = espDefaultLook();
+    EspLook look = esp::defaults<EspLook>();
     const std::vector<uint8_t> nothing = picture(painting, look);
     painting.ok(espLoadGround(painting.context, painting.path.c_str(), nullptr, &painting.surface));
     CHECK(picture(painting, look) == nothing);
@@ -158,7 +160,7 @@ TEST_CASE("ground that something else draws is seen in views of charts and layer
         painting.grammar("Vine -> Marching(0.05, 0, arc < 1) {Vine, Wood}\nWood -> S(0.2) Shape(\"bark\")\n"),
         {0, -.5f, 1}, {0, 1, 0});
     CHECK(painting.grown().nodes > 10);
-    CHECK(!alike(at(picture(painting, espDefaultLook()), 48, 48), at(nothing, 48, 48)));
+    CHECK(!alike(at(picture(painting, esp::defaults<EspLook>()), 48, 48), at(nothing, 48, 48)));
 }
 
 TEST_CASE("leaves take the colour and the size that are painted for them") {
@@ -172,13 +174,13 @@ TEST_CASE("leaves take the colour and the size that are painted for them") {
         "Leaf : rand() < autumn(texCoord) -> Colour(turned) Shape(\"leaf\")\n"
         "Leaf -> Shape(\"leaf\")\n");
     painting.plant(grammar, {0, -.8f, 1}, {0, 1, 0});
-    const std::vector<uint8_t> bare = picture(Painting(), espDefaultLook());
+    const std::vector<uint8_t> bare = picture(Painting(), esp::defaults<EspLook>());
     struct Seen {
         int red = 0, green = 0;
         int both() const { return red + green; }
     };
     const auto seen = [&](uint32_t fromY, uint32_t toY) {
-        const std::vector<uint8_t> shown = picture(painting, espDefaultLook());
+        const std::vector<uint8_t> shown = picture(painting, esp::defaults<EspLook>());
         Seen found;
         for (uint32_t y = fromY; y < toY; ++y)
             for (uint32_t x = 0; x < kSide; ++x) {
@@ -211,7 +213,7 @@ TEST_CASE("shadows that lag behind growth are told, and the next picture of what
                          "Vine -> Marching(0.05, 0, mask(texCoord) and arc < 1.6) {Vine, Leaves}\n"
                          "Leaves -> Repeat(every(0.02)) {S(0.3) T(0.5, 0.2) R(rand(-3, 3)) Shape(\"leaf\")}\n"),
         {0, -.8f, 1}, {0, 1, 0});
-    EspLook lags = espDefaultLook();
+    EspLook lags = esp::defaults<EspLook>();
     lags.shadowsLag = 1;
     const auto behind = [&] { return painting.grown().shadowsBehind != 0; };
     (void)picture(painting, lags);
@@ -232,7 +234,7 @@ TEST_CASE("shadows that lag behind growth are told, and the next picture of what
     lags.shadows = 0;
     CHECK(picture(painting, lags) != rested);
     CHECK(!behind());
-    CHECK(picture(painting, espDefaultLook()) == rested);
+    CHECK(picture(painting, esp::defaults<EspLook>()) == rested);
 }
 
 TEST_CASE("a painted layer that no grammar reads is shown blank where grammars read as many as there can be") {
@@ -242,7 +244,7 @@ TEST_CASE("a painted layer that no grammar reads is shown blank where grammars r
     painting.grammar((text + "A -> Marching(0.1, 0, arc < 1) {A}\n").c_str());
     for (const char* layer : {"more", "tint.r", "tint.g", "tint.b"})
         painting.stroke(brushOn(layer, .5f), {dabAt({0, 0, 1})});
-    EspLook look = espDefaultLook();
+    EspLook look = esp::defaults<EspLook>();
     look.view = ESP_VIEW_LAYER;
     look.viewLayer = "l0";
     const std::vector<uint8_t> read = picture(painting, look);
@@ -251,7 +253,7 @@ TEST_CASE("a painted layer that no grammar reads is shown blank where grammars r
     CHECK(blank != read);
     look.viewLayer = "tint";
     CHECK(picture(painting, look) == blank);
-    EspDrawDef def = espDefaultDrawDef();
+    esp::DrawDef def;
     def.look = look;
     def.look.viewLayer = "none";
     CHECK(espDraw(painting.context, &def) == ESP_INVALID_ARGUMENT);

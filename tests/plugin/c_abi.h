@@ -10,8 +10,8 @@ extern int logged;              /* errors that the log was told of */
 EspGrammarDef ivy(void);
 EspSeed plant(EspContext* context, EspGrammar grammar, float x, float y, float z, uint32_t number);
 
-/* A host's own instance and device, made as vulkan.h's users make them. */
-EspHostDevice makeHost(void);
+/* A host's own instance, for this version of Vulkan, and device, made as vulkan.h's users make them. */
+EspHostDevice makeHost(uint32_t apiVersion);
 /* A context whose log counts; host and cache may be NULL. */
 EspContext* create(const EspHostDevice* host, const char* cache);
 

@@ -9,8 +9,11 @@ static void countLog(void* user, EspLogLevel level, const char* message) {
     if (level == ESP_LOG_ERROR) ++*(int*)user;
 }
 
-EspHostDevice makeHost(void) {
-    VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = VK_API_VERSION_1_3};
+/* As espCreate is told of it: static, since EspHostDevice leads to it. */
+static VkDeviceCreateInfo made;
+
+EspHostDevice makeHost(uint32_t apiVersion) {
+    VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = apiVersion};
     VkInstanceCreateInfo instanceInfo = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                          .pApplicationInfo = &application};
     VkInstance instance;
@@ -25,20 +28,28 @@ EspHostDevice makeHost(void) {
         .sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, .queueCount = 1, .pQueuePriorities = &priority};
     VkDeviceCreateInfo deviceInfo = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                      .pNext = espRequiredFeatures(),
-                                     .queueCreateInfoCount = 1,
-                                     .pQueueCreateInfos = &queueInfo,
                                      .enabledExtensionCount = extensionCount,
                                      .ppEnabledExtensionNames = extensions};
+    made = deviceInfo;
+    deviceInfo.queueCreateInfoCount = 1;
+    deviceInfo.pQueueCreateInfos = &queueInfo;
     VkDevice device;
     CHECK(vkCreateDevice(physical, &deviceInfo, NULL, &device) == VK_SUCCESS);
     VkQueue queue;
     vkGetDeviceQueue(device, 0, 0, &queue);
-    EspHostDevice host = {(void*)vkGetInstanceProcAddr, instance, physical, device, queue, 0, 0, 0};
+    EspHostDevice host = {.structSize = sizeof host,
+                          .getInstanceProcAddr = (void*)vkGetInstanceProcAddr,
+                          .instance = instance,
+                          .physicalDevice = physical,
+                          .device = device,
+                          .queue = queue,
+                          .deviceInfo = &made};
     return host;
 }
 
 EspContext* create(const EspHostDevice* host, const char* cache) {
-    EspContextDef def = espDefaultContextDef();
+    EspContextDef def = {.structSize = sizeof def};
+    espDefaultContextDef(&def);
     EspContext* context = NULL;
     const char* validation = getenv("ESPALIER_VALIDATION");
     def.host = host;
@@ -46,7 +57,7 @@ EspContext* create(const EspHostDevice* host, const char* cache) {
     def.log = countLog;
     def.logUser = &logged;
     def.cacheFolder = cache;
-    OK(NULL, espCreate(&def, &context));
+    OK(NULL, espCreate(ESP_VERSION, &def, &context));
     CHECK(context != NULL && espDeviceName(context)[0] != 0 && espLastError(context)[0] == 0);
     return context;
 }

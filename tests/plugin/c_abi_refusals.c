@@ -8,11 +8,12 @@ void badArguments(EspContext* context) {
     EspSurface surface = {0}, none = {77};
     EspGrammar grammar = {0}, noGrammar = {12345};
     EspGrammarDef def = ivy();
-    EspHit hit;
-    EspStats s;
+    EspHit hit = {.structSize = sizeof hit};
+    EspStats s = {.structSize = sizeof s};
     const float point[3] = {0, 0, 0}, bad[3] = {NAN, 0, 0};
 
-    REFUSED(espCreate(NULL, NULL));
+    REFUSED(espCreate(ESP_VERSION, NULL, NULL));
+    REFUSED(espFrameAll(NULL, NULL));
     CHECK(espTrim(NULL) == ESP_INVALID_ARGUMENT && espWatchGrowth(NULL, NULL, NULL) == ESP_INVALID_ARGUMENT);
     CHECK(espUpdate(NULL) == ESP_INVALID_ARGUMENT && espDraw(NULL, NULL) == ESP_INVALID_ARGUMENT);
     CHECK(espParamCount(NULL, grammar) == 0 && espLayerName(context, noGrammar, 0)[0] == 0);
@@ -35,7 +36,7 @@ void badArguments(EspContext* context) {
     REFUSED(espNearest(context, point, &hit));
     CHECK(espNearest(context, bad, &hit) == ESP_INVALID_ARGUMENT && espPick(context, point, point, &hit) != ESP_OK);
 
-    EspGrammarDef empty = {"empty.grammar", "", 0}, null = {NULL, NULL, 5};
+    EspGrammarDef empty = {sizeof empty, "empty.grammar", "", 0}, null = {sizeof null, NULL, NULL, 5};
     CHECK(espCompileGrammar(context, &empty, &grammar) == ESP_INVALID_CONTENT);
     CHECK(strstr(espLastError(context), "empty.grammar") != NULL);
     REFUSED(espCompileGrammar(context, &null, &grammar));
@@ -47,7 +48,8 @@ void badArguments(EspContext* context) {
     REFUSED(espSetParam(context, grammar, "reach", &one, 0));
     REFUSED(espSetParam(context, grammar, "reach", three, 3));
 
-    EspSeedDef seed = espDefaultSeedDef();
+    EspSeedDef seed = {.structSize = sizeof seed};
+    espDefaultSeedDef(&seed);
     EspSeed planted;
     seed.grammar = grammar;
     REFUSED(espPlant(context, &seed, &planted)); /* no surface yet */
@@ -61,7 +63,8 @@ void badArguments(EspContext* context) {
     seed.grammar = noGrammar;
     REFUSED(espPlant(context, &seed, &planted));
 
-    EspLayerDef layer = espDefaultLayerDef();
+    EspLayerDef layer = {.structSize = sizeof layer};
+    espDefaultLayerDef(&layer);
     layer.surface = surface;
     layer.name = "mask";
     layer.texels = &one;
@@ -73,37 +76,46 @@ void badArguments(EspContext* context) {
     layer.surface = none;
     REFUSED(espSetLayer(context, &layer));
 
-    EspDrawDef draw = espDefaultDrawDef();
+    EspDrawDef draw = {.structSize = sizeof draw};
+    EspCamera camera = {.structSize = sizeof camera};
+    EspLook look = {.structSize = sizeof look};
+    espDefaultDrawDef(&draw);
+    espDefaultCamera(&camera);
+    espDefaultLook(&look);
     draw.width = 0;
     REFUSED(espDraw(context, &draw));
     draw.width = 20000;
     REFUSED(espDraw(context, &draw));
-    draw = espDefaultDrawDef();
-    draw.camera.eye[0] = NAN;
+    espDefaultDrawDef(&draw);
+    draw.camera = &camera;
+    draw.look = &look;
+    camera.eye[0] = NAN;
     REFUSED(espDraw(context, &draw));
-    draw = espDefaultDrawDef();
-    float* const numbers[] = {&draw.look.sunColour[1], &draw.look.horizon[2], &draw.look.exposure,
-                              &draw.look.lodPixels,    &draw.look.leafPixels, &draw.look.groundLevel};
+    espDefaultCamera(&camera);
+    float* const numbers[] = {&look.sunColour[1], &look.horizon[2], &look.exposure,
+                              &look.lodPixels,    &look.leafPixels, &look.groundLevel};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i) {
         const float before = *numbers[i];
         *numbers[i] = i % 2 ? NAN : INFINITY;
         REFUSED(espDraw(context, &draw));
         *numbers[i] = before;
     }
-    draw.look.view = ESP_VIEW_LAYER;
-    draw.look.viewLayer = "no such layer";
+    look.view = ESP_VIEW_LAYER;
+    look.viewLayer = "no such layer";
     REFUSED(espDraw(context, &draw));
-    draw.look.view = (EspView)99;
+    look.view = (EspView)99;
     REFUSED(espDraw(context, &draw));
-    draw = espDefaultDrawDef();
-    EspBrush nameless = espDefaultBrush();
-    draw.look.viewBrush = &nameless;
+    espDefaultLook(&look);
+    EspBrush nameless = {.structSize = sizeof nameless};
+    espDefaultBrush(&nameless);
+    look.viewBrush = &nameless;
     OK(context, espDraw(context, &draw)); /* it is for the view of a layer */
-    draw.look.view = ESP_VIEW_LAYER;
+    look.view = ESP_VIEW_LAYER;
     REFUSED(espDraw(context, &draw));
     uint8_t pixel[4];
     REFUSED(espReadPixels(context, pixel, sizeof pixel));
-    EspGrowDef grow = espDefaultGrowDef();
+    EspGrowDef grow = {.structSize = sizeof grow};
+    espDefaultGrowDef(&grow);
     grow.maxNodes = 0;
     REFUSED(espSetGrow(context, &grow));
 

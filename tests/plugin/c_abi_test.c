@@ -26,14 +26,15 @@ static const char* kIvy =
     "Foliage -> Repeat(lush * 2) {S(0.06) T(rand(), 0.02) R(rand(-1, 1), 0.3) Shape(\"leaf\")}\n";
 
 EspGrammarDef ivy(void) {
-    EspGrammarDef def = {"ivy", NULL, 0};
+    EspGrammarDef def = {sizeof def, "ivy", NULL, 0};
     def.text = kIvy;
     def.length = strlen(kIvy);
     return def;
 }
 
 EspSeed plant(EspContext* context, EspGrammar grammar, float x, float y, float z, uint32_t number) {
-    EspSeedDef def = espDefaultSeedDef();
+    EspSeedDef def = {.structSize = sizeof def};
+    espDefaultSeedDef(&def);
     EspSeed seed = {0};
     def.grammar = grammar;
     def.position[0] = x;
@@ -47,7 +48,7 @@ EspSeed plant(EspContext* context, EspGrammar grammar, float x, float y, float z
 }
 
 static EspStats stats(EspContext* context) {
-    EspStats s;
+    EspStats s = {.structSize = sizeof s};
     OK(context, espReadStats(context, &s));
     return s;
 }
@@ -55,10 +56,13 @@ static EspStats stats(EspContext* context) {
 size_t drawn(EspContext* context) {
     static uint8_t pixels[kWidth * kHeight * 4];
     size_t different = 0;
-    EspDrawDef draw = espDefaultDrawDef();
+    EspDrawDef draw = {.structSize = sizeof draw};
+    espDefaultDrawDef(&draw);
     draw.width = kWidth;
     draw.height = kHeight;
-    draw.camera = espFrameAll(context);
+    EspCamera camera = {.structSize = sizeof camera};
+    OK(context, espFrameAll(context, &camera));
+    draw.camera = &camera;
     OK(context, espDraw(context, &draw));
     OK(context, espReadPixels(context, pixels, sizeof pixels));
     for (size_t i = 4; i < sizeof pixels; i += 4) different += memcmp(pixels, pixels + i, 3) != 0;
@@ -70,7 +74,7 @@ static uint64_t wholeLife(EspContext* context) {
     EspSurface surface = {0};
     EspGrammar grammar = {0};
     EspGrammarDef def = ivy();
-    EspSurfaceInfo info;
+    EspSurfaceInfo info = {.structSize = sizeof info};
     OK(context, espLoadSurface(context, surfacePath, NULL, &surface));
     OK(context, espSurfaceInfo(context, surface, &info));
     CHECK(info.triangles > 1000 && info.charts > 1 && info.levels >= 1 && info.resolution >= 64);
@@ -79,7 +83,7 @@ static uint64_t wholeLife(EspContext* context) {
 
     OK(context, espCompileGrammar(context, &def, &grammar));
     CHECK(espParamCount(context, grammar) == 2);
-    EspParamInfo param;
+    EspParamInfo param = {.structSize = sizeof param};
     OK(context, espParamInfo(context, grammar, 0, &param));
     CHECK(!strcmp(param.name, "reach") && !strcmp(param.label, "Length of the stems") && !strcmp(param.unit, "m"));
     CHECK(param.low == 0.1f && param.high == 5 && param.value[0] == 0.6f && param.initial[0] == 0.6f);
@@ -90,13 +94,13 @@ static uint64_t wholeLife(EspContext* context) {
     CHECK(stats(context).nodes == 0);
 
     /* Two seeds on the wall; where a ray from the front meets it. */
-    EspHit hit;
+    EspHit hit = {.structSize = sizeof hit};
     const float origin[3] = {-1.35f, 1, 5}, direction[3] = {0, 0, -2};
     OK(context, espPick(context, origin, direction, &hit));
     CHECK(hit.surface.id == surface.id && hit.chart < info.charts && hit.normal[2] > 0.5f);
     CHECK(fabsf(hit.distance - (5 - hit.position[2])) < 1e-3f);
     CHECK(hit.uv[0] >= 0 && hit.uv[0] <= 1 && hit.uv[1] >= 0 && hit.uv[1] <= 1);
-    EspHit near;
+    EspHit near = {.structSize = sizeof near};
     OK(context, espNearest(context, hit.position, &near));
     CHECK(near.distance < 1e-3f && near.chart == hit.chart);
     const float away[3] = {0, 1, 0};
@@ -115,7 +119,8 @@ static uint64_t wholeLife(EspContext* context) {
     CHECK(stats(context).expansions == grown.expansions);
     const float same = 0.6f;
     OK(context, espSetParam(context, grammar, "reach", &same, 1));
-    EspGrowDef grow = espDefaultGrowDef();
+    EspGrowDef grow = {.structSize = sizeof grow};
+    espDefaultGrowDef(&grow);
     OK(context, espSetGrow(context, &grow));
     OK(context, espUpdate(context));
     CHECK(stats(context).expansions == grown.expansions);
@@ -136,14 +141,15 @@ static uint64_t wholeLife(EspContext* context) {
     OK(context, espSetGrow(context, &grow));
     OK(context, espUpdate(context));
     CHECK(stats(context).nodes > 0 && stats(context).nodes <= 30 && stats(context).overflow > 0);
-    grow = espDefaultGrowDef();
+    espDefaultGrowDef(&grow);
     OK(context, espSetGrow(context, &grow));
     OK(context, espUpdate(context));
     CHECK(stats(context).hash == grown.hash && stats(context).overflow == 0);
 
     /* A mask of zeros lets nothing grow; without it all is as before. */
     const float black[4] = {0, 0, 0, 0};
-    EspLayerDef layer = espDefaultLayerDef();
+    EspLayerDef layer = {.structSize = sizeof layer};
+    espDefaultLayerDef(&layer);
     layer.surface = surface;
     layer.name = "mask";
     layer.texels = black;
@@ -157,7 +163,7 @@ static uint64_t wholeLife(EspContext* context) {
     CHECK(stats(context).hash == grown.hash);
 
     /* A text that doesn't compile leaves the old one growing, and says where it is wrong. */
-    EspGrammarDef broken = {"broken.grammar", "Ivy -> Marching(\n", 17};
+    EspGrammarDef broken = {sizeof broken, "broken.grammar", "Ivy -> Marching(\n", 17};
     CHECK(espRecompileGrammar(context, grammar, &broken) == ESP_INVALID_CONTENT);
     CHECK(strstr(espLastError(context), "broken.grammar:") != NULL);
     OK(context, espUpdate(context));
@@ -171,7 +177,7 @@ static uint64_t wholeLife(EspContext* context) {
     /* What may not be meant is told and grows. */
     char idle[4096];
     CHECK(snprintf(idle, sizeof idle, "%.*sparam idle = 1\n", (int)def.length, def.text) < (int)sizeof idle);
-    EspGrammarDef warned = {"idle.grammar", idle, strlen(idle)};
+    EspGrammarDef warned = {sizeof warned, "idle.grammar", idle, strlen(idle)};
     OK(context, espRecompileGrammar(context, grammar, &warned));
     CHECK(strstr(espGrammarWarnings(context, grammar), "idle.grammar:") != NULL);
     CHECK(strstr(espGrammarWarnings(context, grammar), "warning: idle: ") != NULL);
@@ -179,7 +185,7 @@ static uint64_t wholeLife(EspContext* context) {
     CHECK(espGrammarWarnings(context, grammar)[0] == 0);
 
     /* Triangles on request. */
-    EspTriangles triangles;
+    EspTriangles triangles = {.structSize = sizeof triangles};
     OK(context, espMaterialise(context, &triangles));
     CHECK(triangles.vertexCount > 1000 && triangles.indexCount > 1000 && triangles.indexCount % 3 == 0);
     for (uint64_t i = 0; i < triangles.indexCount; ++i) CHECK(triangles.indices[i] < triangles.vertexCount);
@@ -201,7 +207,7 @@ static uint64_t wholeLife(EspContext* context) {
     place.rows[0][3] = 20;
     EspSurface second = {0};
     OK(context, espLoadSurface(context, surfacePath, &place, &second));
-    EspSurfaceInfo secondInfo;
+    EspSurfaceInfo secondInfo = {.structSize = sizeof secondInfo};
     OK(context, espSurfaceInfo(context, second, &secondInfo));
     CHECK(fabs(secondInfo.walkableArea * 4 / info.walkableArea - 1) < 1e-3);
     plant(context, grammar, 20 + hit.position[0] / 2, hit.position[1] / 2, hit.position[2] / 2, 4);
@@ -225,10 +231,10 @@ static void widthIsFollowed(EspContext* context) {
         "param thick = 0 [0 .. 1] \"m\" \"Width\"\n"
         "width thick\n"
         "Vine -> Marching(0.05, rand(-0.3, 0.3), arc < 2) {Vine, S(0.01) Shape(\"bark\", C1)}\n";
-    EspGrammarDef def = {"thick", text, strlen(text)};
+    EspGrammarDef def = {sizeof def, "thick", text, strlen(text)};
     EspSurface surface = {0};
     EspGrammar grammar = {0};
-    EspSurfaceInfo info;
+    EspSurfaceInfo info = {.structSize = sizeof info};
     OK(context, espLoadSurface(context, surfacePath, NULL, &surface));
     OK(context, espSurfaceInfo(context, surface, &info));
     CHECK(info.levels > 2);
@@ -257,7 +263,7 @@ static void surfacesTouch(EspContext* context) {
     EspGrammar grammar = {0};
     EspGrammarDef def = ivy();
     EspTransform place = espIdentity();
-    EspSurfaceInfo info;
+    EspSurfaceInfo info = {.structSize = sizeof info};
     OK(context, espCompileGrammar(context, &def, &grammar));
     OK(context, espLoadSurface(context, surfacePath, NULL, &ground));
     plant(context, grammar, -1.35f, 0.1f, 0.4f, 3);
@@ -290,7 +296,7 @@ static void surfacesTouch(EspContext* context) {
 
     /* Its seeds go with a surface. */
     EspSeed seed = plant(context, grammar, 1.5f - 1.35f, 2.5f, 1.2f + 0.4f, 5);
-    EspSeedInfo before, after;
+    EspSeedInfo before = {.structSize = sizeof before}, after = {.structSize = sizeof after};
     OK(context, espSeedInfo(context, seed, &before));
     CHECK(before.surface.id == wall.id);
     place.rows[1][3] = 7;
@@ -318,7 +324,7 @@ static void carries(void) {
     float* texels = malloc(count * sizeof *texels);
     float* out = malloc(count * sizeof *out);
     for (size_t i = 0; i < count; ++i) texels[i] = (float)(i % side) / (float)side;
-    EspCarried carried = {1, 1};
+    EspCarried carried = {sizeof carried, 1, 1};
     CHECK(espCarryLayer(carry, texels, side, side, .5f, out, &carried) == ESP_OK);
     CHECK(carried.fresh < .2 && carried.lost < .2); /* m²: slivers that face elsewhere than their neighbours */
     size_t kept = 0;
@@ -359,7 +365,7 @@ int main(int argc, char** argv) {
     const uint64_t hash = wholeLife(own);
     espDestroy(own);
 
-    const EspHostDevice host = makeHost();
+    const EspHostDevice host = makeHost(VK_API_VERSION_1_3);
     EspContext* hosted = create(&host, cache);
     CHECK(wholeLife(hosted) == hash);
     espDestroy(hosted);
@@ -367,8 +373,6 @@ int main(int argc, char** argv) {
     hosted = create(&host, cache);
     CHECK(wholeLife(hosted) == hash);
     espDestroy(hosted);
-    vkDestroyDevice((VkDevice)host.device, NULL);
-    vkDestroyInstance((VkInstance)host.instance, NULL);
 
     EspContext* wide = create(NULL, NULL);
     widthIsFollowed(wide);
@@ -384,16 +388,31 @@ int main(int argc, char** argv) {
     CHECK(logged > 10); /* errors reach the host's log */
     espDestroy(refused);
 
-    EspContextDef def = espDefaultContextDef();
+    EspContextDef def = {.structSize = sizeof def};
+    espDefaultContextDef(&def);
     EspContext* context = NULL;
     def.terminals = "no/such/terminals.glb";
-    CHECK(espCreate(&def, &context) == ESP_IO_FAILED && context == NULL);
+    CHECK(espCreate(ESP_VERSION, &def, &context) == ESP_IO_FAILED && context == NULL);
     CHECK(strstr(espLastError(NULL), "terminals.glb") != NULL);
     EspHostDevice half = host;
     half.queue = NULL;
-    def = espDefaultContextDef();
+    espDefaultContextDef(&def);
     def.host = &half;
-    CHECK(espCreate(&def, &context) == ESP_INVALID_ARGUMENT && context == NULL);
+    CHECK(espCreate(ESP_VERSION, &def, &context) == ESP_INVALID_ARGUMENT && context == NULL);
+    half = host;
+    half.deviceInfo = NULL;
+    CHECK(espCreate(ESP_VERSION, &def, &context) == ESP_INVALID_ARGUMENT && context == NULL);
+    CHECK(strstr(espLastError(NULL), "deviceInfo") != NULL);
+
+    /* An instance that is too old is called so. */
+    const EspHostDevice old = makeHost(VK_API_VERSION_1_1);
+    def.host = &old;
+    CHECK(espCreate(ESP_VERSION, &def, &context) == ESP_NO_DEVICE && context == NULL);
+    CHECK(strstr(espLastError(NULL), "apiVersion") != NULL);
+    vkDestroyDevice((VkDevice)old.device, NULL);
+    vkDestroyInstance((VkInstance)old.instance, NULL);
+    vkDestroyDevice((VkDevice)host.device, NULL);
+    vkDestroyInstance((VkInstance)host.instance, NULL);
     printf("the C interface: all checks passed\n");
     return 0;
 }

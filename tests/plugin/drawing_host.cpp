@@ -8,6 +8,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/packing.hpp>
 
+#include "plugin_api/espalier.hpp"
+#include "tests/plugin/made_as_required.hpp"
+
 namespace espalier {
 namespace {
 
@@ -63,6 +66,7 @@ EspHostDevice DrawingHost::device() const {
     host.device = device_->handle();
     host.queue = device_->queue();
     host.queueFamily = device_->info().queueFamily;
+    host.deviceInfo = &madeAsRequired();
     return host;
 }
 
@@ -106,6 +110,7 @@ EspHostScene DrawingHost::scene() const {
     EspHostScene scene{};
     scene.depthImage = nearest_.handle();
     scene.depthFormat = depth_.format;
+    scene.depthUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     scene.depthAtInfinity = depth_.reversed ? 0 : kFar / (kFar - kNear);
     scene.depthPerNearness = depth_.reversed ? kNear : -kNear * kFar / (kFar - kNear);
     return scene;
@@ -115,8 +120,8 @@ double DrawingHost::distance(float depth) const {
     return depth_.reversed ? double(kNear) / depth : double(kNear) * kFar / (kFar - double(depth) * (kFar - kNear));
 }
 
-EspDrawDef DrawingHost::def(const EspCamera& camera, const Commands& commands) const {
-    EspDrawDef def = espDefaultDrawDef();
+esp::DrawDef DrawingHost::def(const EspCamera& camera, const Commands& commands) const {
+    esp::DrawDef def;
     def.width = width_;
     def.height = height_;
     def.camera = camera;
@@ -124,6 +129,7 @@ EspDrawDef DrawingHost::def(const EspCamera& camera, const Commands& commands) c
     def.colourImage = picture_.handle();
     def.colourView = picture_.view();
     def.colourFormat = colour_;
+    def.colourUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     def.frame = frame_;
     def.framesDone = frame_ - 1;
     return def;
@@ -147,7 +153,7 @@ DrawingHost::Picture DrawingHost::draw(const EspCamera& camera, const std::vecto
         ++frame_;
         EspHostScene own = scene();
         own.surfaces = surfaces;
-        EspDrawDef drawn = def(camera, commands);
+        esp::DrawDef drawn = def(camera, commands);
         drawn.scene = &own;
         const EspResult result = espDraw(context, &drawn);
         REQUIRE_MESSAGE(result == ESP_OK, espLastError(context));
@@ -160,7 +166,7 @@ void DrawingHost::recordInVain(const EspCamera& camera, EspContext* context) {
     makeImages();
     Commands commands = must(Commands::begin(*device_, "host's frame"));
     ++frame_;
-    const EspDrawDef drawn = def(camera, commands);
+    const esp::DrawDef drawn = def(camera, commands);
     const EspResult result = espDraw(context, &drawn);
     REQUIRE_MESSAGE(result == ESP_OK, espLastError(context));
 }
@@ -173,7 +179,7 @@ std::vector<Image> DrawingHost::submit(const std::vector<EspCamera>& cameras, Es
         makeImages();
         recorded.push_back(must(Commands::begin(*device_, "host's frame")));
         ++frame_;
-        EspDrawDef drawn = def(camera, recorded.back());
+        esp::DrawDef drawn = def(camera, recorded.back());
         drawn.framesDone = before;
         const EspResult result = espDraw(context, &drawn);
         REQUIRE_MESSAGE(result == ESP_OK, espLastError(context));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "plugin_api/espalier.h"
+#include "plugin_api/espalier.hpp"
 #include "runtime/gpu/commands.hpp"
 
 namespace espalier {
@@ -47,7 +48,7 @@ class DrawingHost {
     std::vector<Picture> drawAtOnce(const std::vector<EspCamera>& cameras, EspContext* context);
 
     EspHostScene scene() const;  // as draw() hands it in
-    EspDrawDef def(const EspCamera& camera, const Commands& commands) const;
+    esp::DrawDef def(const EspCamera& camera, const Commands& commands) const;
     // Metres along the view, of a depth that the buffer holds.
     double distance(float depth) const;
 

@@ -1,8 +1,7 @@
+#include <espalier/espalier.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "plugin_api/espalier.h"
 
 static EspContext* context;
 
@@ -14,8 +13,9 @@ static void must(EspResult result) {
 
 /* usage: embedding_example SURFACE.glb */
 int main(int argc, char** argv) {
-    EspContextDef def = espDefaultContextDef(); /* def.host: your VkDevice; NULL: one of Espalier's own */
-    must(espCreate(&def, &context));
+    EspContextDef def = {.structSize = sizeof def};
+    espDefaultContextDef(&def); /* def.host: your VkDevice; NULL: one of Espalier's own */
+    must(espCreate(ESP_VERSION, &def, &context));
 
     EspSurface wall;
     must(espLoadSurface(context, argc > 1 ? argv[1] : "wall.surface.glb", NULL, &wall));
@@ -27,11 +27,12 @@ int main(int argc, char** argv) {
         "Stem(l) -> Marching(0.05, rand(-0.3, 0.3), true) {Stem(l), Wood Leaves}\n"
         "Wood   -> S(0.01) Shape(\"bark\", C1)\n"
         "Leaves -> Repeat(2) {S(0.07) T(rand(), 0.02) R(rand(-1, 1), 0.3) Shape(\"leaf\")}\n";
-    EspGrammarDef grammarDef = {"ivy.grammar", text, strlen(text)};
+    EspGrammarDef grammarDef = {sizeof grammarDef, "ivy.grammar", text, strlen(text)};
     EspGrammar ivy;
     must(espCompileGrammar(context, &grammarDef, &ivy));
 
-    EspSeedDef seed = espDefaultSeedDef();
+    EspSeedDef seed = {.structSize = sizeof seed};
+    espDefaultSeedDef(&seed);
     seed.grammar = ivy;
     seed.position[1] = 0.1f; /* the nearest point of the wall is taken */
     seed.direction[1] = 1;
@@ -40,12 +41,12 @@ int main(int argc, char** argv) {
 
     for (int frame = 0; frame < 3; ++frame) {
         must(espUpdate(context)); /* grows in the first frame; nothing has changed in the others */
-        EspDrawDef draw = espDefaultDrawDef();
-        draw.camera = espFrameAll(context);
+        EspDrawDef draw = {.structSize = sizeof draw};
+        espDefaultDrawDef(&draw);
         must(espDraw(context, &draw));
     }
 
-    EspStats stats;
+    EspStats stats = {.structSize = sizeof stats};
     must(espReadStats(context, &stats));
     printf("%u seeds, %u branches, %llu leaves, grown %u times\n", stats.seeds, stats.branches,
            (unsigned long long)stats.leaves, stats.expansions);

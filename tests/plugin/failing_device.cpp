@@ -7,6 +7,8 @@
 #include <cstring>
 #include <vector>
 
+#include "tests/plugin/made_as_required.hpp"
+
 namespace espalier {
 namespace {
 
@@ -131,12 +133,9 @@ FailingDevice::FailingDevice() {
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    VkDeviceCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-    info.pNext = espRequiredFeatures();
+    VkDeviceCreateInfo info = madeAsRequired();
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    info.ppEnabledExtensionNames = espRequiredExtensions(&info.enabledExtensionCount);
     REQUIRE(vkCreateDevice(handles.physical, &info, nullptr, &handles.device) == VK_SUCCESS);
     vkGetDeviceQueue(handles.device, 0, 0, &handles.queue);
 }
@@ -155,6 +154,7 @@ EspHostDevice FailingDevice::host() const {
     host.physicalDevice = handles.physical;
     host.device = handles.device;
     host.queue = handles.queue;
+    host.deviceInfo = &madeAsRequired();
     return host;
 }
 

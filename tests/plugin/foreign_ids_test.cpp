@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "plugin_api/espalier.hpp"
 #include "runtime/plugin/context_number.hpp"
 #include "tests/plugin/life.hpp"
 #include "tests/plugin/town_host.hpp"
@@ -22,9 +23,9 @@ struct Garden : Life {
     EspStroke ended{}, open{};
 
     Garden() {
-        EspContextDef def = espDefaultContextDef();
+        EspContextDef def = esp::defaults<EspContextDef>();
         def.log = silent;
-        REQUIRE(step("create", espCreate(&def, &context)));
+        REQUIRE(step("create", espCreate(ESP_VERSION, &def, &context)));
         REQUIRE((load() && compile() && plant(1)));
         roofs = compiled(context, "roofs", kDecaying);
         espalier::load(context, roofs, kHouse);
@@ -45,7 +46,7 @@ void refuseSurface(EspContext* context, EspSurface foreign) {
     const EspTransform place = espIdentity();
     uint32_t count = 0;
     const float texel = 1;
-    EspLayerDef layer = espDefaultLayerDef();
+    EspLayerDef layer = esp::defaults<EspLayerDef>();
     layer.surface = foreign;
     layer.name = "mask";
     layer.texels = &texel;
@@ -64,13 +65,13 @@ void refuseSurface(EspContext* context, EspSurface foreign) {
 
 void refuseGrammar(EspContext* context, EspGrammar foreign, EspGrammar foreignRoofs) {
     const std::string text = kLifeIvy;
-    const EspGrammarDef def{"ivy", text.data(), text.size()};
+    const EspGrammarDef def = esp::grammarDef("ivy", text);
     EspParamInfo info;
     const float one = 1;
-    EspSeedDef seed = espDefaultSeedDef();
+    EspSeedDef seed = esp::defaults<EspSeedDef>();
     seed.grammar = foreign;
     EspSeed planted{};
-    EspTownDef town = espDefaultTownDef();
+    EspTownDef town = esp::defaults<EspTownDef>();
     town.text = kHouse;
     town.length = std::string(kHouse).size();
     town.grammar = foreignRoofs;

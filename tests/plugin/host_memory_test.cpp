@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/plugin/life.hpp"
 #include "tests/plugin/starving.hpp"
 
@@ -20,8 +21,8 @@ TEST_CASE("growth that the host has no memory for is tried ever less often, and 
     Life life;
     REQUIRE(life.all(device));
     const uint64_t hash = life.stats().hash;
-    const EspGrammarDef roofs{"roofs", kRoofs, std::strlen(kRoofs)};
-    EspTownDef town = espDefaultTownDef();
+    const EspGrammarDef roofs = esp::grammarDef("roofs", kRoofs);
+    EspTownDef town = esp::defaults<EspTownDef>();
     town.text = kTown;
     town.length = std::strlen(kTown);
     bool ofTown = false;
@@ -105,7 +106,7 @@ TEST_CASE("want of the host's memory at any point of an update costs that update
     uint32_t failures = 0, round = 0;
     for (uint32_t at = 0;; at += 1 + at / 32, ++round) {
         CAPTURE(at);
-        EspSeedDef def = espDefaultSeedDef();
+        EspSeedDef def = esp::defaults<EspSeedDef>();
         def.grammar = life.grammar;
         def.position[0] = .1f + .8f * std::fmod(.618f * float(round), 1.f);
         def.position[1] = .1f + .8f * std::fmod(.271f * float(round), 1.f);
@@ -119,7 +120,7 @@ TEST_CASE("want of the host's memory at any point of an update costs that update
         failures += enough ? 0 : 1;
         REQUIRE(life.draw());
         const uint64_t hash = life.stats().hash;
-        EspGrowDef grow = espDefaultGrowDef();
+        EspGrowDef grow = esp::defaults<EspGrowDef>();
         grow.maxDepth = 4000 + round % 2;
         REQUIRE(espSetGrow(life.context, &grow) == ESP_OK);
         REQUIRE(life.update());
@@ -150,9 +151,9 @@ TEST_CASE("want of the host's memory at any point of a town's update costs that 
     FailingDevice device;
     Life life;
     REQUIRE(life.create(device));
-    const EspGrammarDef roofs{"roofs", kRoofs, std::strlen(kRoofs)};
+    const EspGrammarDef roofs = esp::grammarDef("roofs", kRoofs);
     const std::string text = townOf(houses);
-    EspTownDef town = espDefaultTownDef();
+    EspTownDef town = esp::defaults<EspTownDef>();
     town.text = text.c_str();
     town.length = text.size();
     REQUIRE(espCompileGrammar(life.context, &roofs, &town.grammar) == ESP_OK);
@@ -199,7 +200,7 @@ TEST_CASE("a seed that the host has no memory for is planted as it was asked for
     Life life;
     REQUIRE(life.all(device));
     EspSeed seed{};
-    EspSeedDef def = espDefaultSeedDef();
+    EspSeedDef def = esp::defaults<EspSeedDef>();
     def.grammar = life.grammar;
     def.number = 9;
     def.twin = 1;
@@ -257,13 +258,13 @@ struct Masked {
     Masked() {
         REQUIRE((life.create(device) && life.load()));
         context = life.context;
-        EspSeedDef seed = espDefaultSeedDef();
+        EspSeedDef seed = esp::defaults<EspSeedDef>();
         for (const char* fill : {"1", "0.6"}) {
             const std::string text = std::string("context maskOfManyLetters = ") + fill +
                                      "\nIvy -> Marching(0.05, rand(-0.3, 0.3), "
                                      "arc < 0.8 and maskOfManyLetters(texCoord) > 0.5) {Ivy, Wood}\n"
                                      "Wood -> S(0.01) Shape(\"bark\", C1)\n";
-            const EspGrammarDef def{"masked", text.c_str(), text.size()};
+            const EspGrammarDef def = esp::grammarDef("masked", text);
             REQUIRE(espCompileGrammar(context, &def, &seed.grammar) == ESP_OK);
             seed.direction[1] = 1;
             seed.number += 1;
@@ -281,14 +282,14 @@ struct Masked {
         CAPTURE(when);
         REQUIRE(life.update());
         const uint64_t hash = life.stats().hash;
-        EspGrowDef grow = espDefaultGrowDef();
+        EspGrowDef grow = esp::defaults<EspGrowDef>();
         grow.maxDepth = ++depth_;
         REQUIRE(espSetGrow(context, &grow) == ESP_OK);
         REQUIRE(life.update());
         CHECK(life.stats().hash == hash);
     }
     EspResult setLayer(uint32_t pieces, const float* value) {
-        EspLayerDef def = espDefaultLayerDef();
+        EspLayerDef def = esp::defaults<EspLayerDef>();
         def.surface = life.surface;
         def.name = kLayer;
         def.texels = value;
@@ -321,7 +322,7 @@ TEST_CASE("what want of the host's memory leaves of a dab or a layer that is set
         REQUIRE(masked.life.update());
         EspResult result = ESP_OK;
         if (dabs) {
-            EspBrush brush = espDefaultBrush();
+            EspBrush brush = esp::defaults<EspBrush>();
             brush.layer = Masked::kLayer;
             brush.value = 0;
             brush.strength = 1;
@@ -380,12 +381,14 @@ TEST_CASE("a seed that the host has no memory to rename, or to give a plant to, 
                            : espFreezeAs(life.context, life.seed, bytes.data(), size);
         });
         EspSeedInfo info{};
+        EspSeedDef def{};
         REQUIRE(espSeedInfo(life.context, life.seed, &info) == ESP_OK);
+        REQUIRE(espSeedDef(life.context, life.seed, &def) == ESP_OK);
         REQUIRE(life.update());
         if (result == ESP_OK) break;
         REQUIRE(result == ESP_OUT_OF_MEMORY);
-        CHECK(info.def.number == 1);
-        CHECK(info.def.twin == 1);
+        CHECK(def.number == 1);
+        CHECK(def.twin == 1);
         CHECK(info.frozen == 0);
         CHECK(life.stats().hash == hash);
     }
@@ -398,7 +401,7 @@ TEST_CASE("a stroke over a town that the host has no memory for is undone as far
     Life life;
     REQUIRE(life.create(device));
     const std::string text = townOf(3);
-    EspTownDef town = espDefaultTownDef();
+    EspTownDef town = esp::defaults<EspTownDef>();
     town.text = text.c_str();
     town.length = text.size();
     REQUIRE(espLoadTown(life.context, &town) == ESP_OK);
@@ -412,7 +415,7 @@ TEST_CASE("a stroke over a town that the host has no memory for is undone as far
         return all;
     };
     const std::vector<float> before = texels();
-    EspBrush brush = espDefaultBrush();
+    EspBrush brush = esp::defaults<EspBrush>();
     brush.layer = "moss";
     brush.radius = 4;
     const EspDab dabs[] = {{{0, 0, 0}, {0, 1, 0}, 1}, {{14, 0, 0}, {0, 1, 0}, 1}, {{6, 0, 2}, {0, 1, 0}, 1}};
@@ -437,7 +440,7 @@ TEST_CASE("a town whose roofs' meshes the host had no memory to name gets them a
     constexpr const char* kRoofs = "House -> Extrude(wallHeight) {Wall, NULL}\nWall -> Shape(\"slate\")\n";
     constexpr uint32_t kMany = 10'000'000;
     const std::string text = townOf(3);
-    EspTownDef town = espDefaultTownDef();
+    EspTownDef town = esp::defaults<EspTownDef>();
     town.text = text.c_str();
     // Pieces that an empty town takes, with the meshes and without.
     uint32_t used[2] = {};
@@ -466,7 +469,7 @@ TEST_CASE("a town whose roofs' meshes the host had no memory to name gets them a
         Life life;
         REQUIRE(life.create(device));
         REQUIRE(load(life, used[0] - used[1] - missing).first == ESP_OUT_OF_MEMORY);
-        const EspGrammarDef roofs{"roofs", kRoofs, std::strlen(kRoofs)};
+        const EspGrammarDef roofs = esp::grammarDef("roofs", kRoofs);
         REQUIRE(espCompileGrammar(life.context, &roofs, &town.grammar) == ESP_OK);
         town.length = text.size();
         REQUIRE(espLoadTown(life.context, &town) == ESP_OK);

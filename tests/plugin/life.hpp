@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/plugin/failing_device.hpp"
 
 namespace espalier {
@@ -36,19 +37,19 @@ struct Life {
     }
     bool create(const FailingDevice& device) {
         const EspHostDevice host = device.host();
-        EspContextDef def = espDefaultContextDef();
+        EspContextDef def = esp::defaults<EspContextDef>();
         def.host = &host;
         def.log = silent;
         def.skipSelfCheck = 1;  // lives count what fails within themselves
-        return step("create", espCreate(&def, &context));
+        return step("create", espCreate(ESP_VERSION, &def, &context));
     }
     bool load() { return step("load", espLoadSurface(context, ESPALIER_SQUARE, nullptr, &surface)); }
     bool compile() {
-        EspGrammarDef def{"ivy", kLifeIvy, std::char_traits<char>::length(kLifeIvy)};
+        EspGrammarDef def = esp::grammarDef("ivy", kLifeIvy);
         return step("compile", espCompileGrammar(context, &def, &grammar));
     }
     bool plant(uint32_t number) {
-        EspSeedDef def = espDefaultSeedDef();
+        EspSeedDef def = esp::defaults<EspSeedDef>();
         def.grammar = grammar;
         def.position[0] = .1f * float(number);
         def.direction[1] = 1;
@@ -57,10 +58,10 @@ struct Life {
     }
     bool update() { return step("update", espUpdate(context)); }
     bool draw() {
-        EspDrawDef def = espDefaultDrawDef();
+        esp::DrawDef def;
         def.width = 64;
         def.height = 36;
-        def.camera = espFrameAll(context);
+        def.camera = esp::frameAll(context);
         return step("draw", espDraw(context, &def));
     }
     bool read() {

@@ -20,14 +20,14 @@ constexpr const char* kRings =
 
 struct Pattern : Life {
     explicit Pattern(bool shaders = false) {
-        EspContextDef def = espDefaultContextDef();
+        EspContextDef def = esp::defaults<EspContextDef>();
         def.log = silent;
-        REQUIRE(espCreate(&def, &context) == ESP_OK);
-        EspGrowDef grow = espDefaultGrowDef();
+        REQUIRE(espCreate(ESP_VERSION, &def, &context) == ESP_OK);
+        EspGrowDef grow = esp::defaults<EspGrowDef>();
         grow.shadersOnly = shaders;
         REQUIRE(espSetGrow(context, &grow) == ESP_OK);
         REQUIRE(load());
-        const EspGrammarDef text{"rings", kRings, std::char_traits<char>::length(kRings)};
+        const EspGrammarDef text = esp::grammarDef("rings", kRings);
         REQUIRE_MESSAGE(espCompileGrammar(context, &text, &grammar) == ESP_OK, espLastError(context));
         REQUIRE(plant(1));
         REQUIRE_MESSAGE(update(), espLastError(context));
@@ -39,7 +39,7 @@ struct Pattern : Life {
     }
     void setElement(EspElementKind kind, float turn) {
         const EspFieldElement element{kind, {0, 0, 0}, {std::cos(turn), std::sin(turn), .3f}, .3f};
-        EspFieldDef def = espDefaultFieldDef();
+        EspFieldDef def = esp::defaults<EspFieldDef>();
         def.elements = &element;
         def.elementCount = 1;
         REQUIRE(espSetField(context, surface, "flow", &def) == ESP_OK);
@@ -91,7 +91,7 @@ TEST_CASE("a pattern is derived only when something that it depends on changes, 
 TEST_CASE("what can't be a field or a pattern is refused, and what stands stays") {
     Pattern pattern;
     const uint64_t before = pattern.stats().hash;
-    EspFieldDef def = espDefaultFieldDef();
+    EspFieldDef def = esp::defaults<EspFieldDef>();
     CHECK(espSetField(pattern.context, {12345}, "flow", &def) == ESP_INVALID_ARGUMENT);
     CHECK(espSetField(pattern.context, pattern.surface, "", &def) == ESP_INVALID_ARGUMENT);
     CHECK(espSetField(pattern.context, pattern.surface, nullptr, &def) == ESP_INVALID_ARGUMENT);
@@ -105,7 +105,7 @@ TEST_CASE("what can't be a field or a pattern is refused, and what stands stays"
     CHECK(espSetField(pattern.context, pattern.surface, "flow", &def) == ESP_INVALID_ARGUMENT);
     CHECK(espPatternStats(pattern.context, nullptr) == ESP_INVALID_ARGUMENT);
     const std::string wrong = "A -> IC(\"thorus\")";
-    const EspGrammarDef text{"wrong", wrong.data(), wrong.size()};
+    const EspGrammarDef text = esp::grammarDef("wrong", wrong);
     CHECK(espRecompileGrammar(pattern.context, pattern.grammar, &text) == ESP_INVALID_CONTENT);
     CHECK(std::string(espLastError(pattern.context)).find("did you mean 'torus'") != std::string::npos);
     REQUIRE(pattern.update());

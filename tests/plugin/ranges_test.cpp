@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/plugin/life.hpp"
 
 using namespace espalier;
@@ -11,10 +12,10 @@ using namespace espalier;
 namespace {
 
 std::vector<uint8_t> picture(EspContext* context, float fov) {
-    EspDrawDef def = espDefaultDrawDef();
+    esp::DrawDef def;
     def.width = 64;
     def.height = 36;
-    def.camera = espFrameAll(context);
+    def.camera = esp::frameAll(context);
     def.camera.fovY = fov;
     std::vector<uint8_t> pixels(size_t(4) * def.width * def.height);
     REQUIRE_MESSAGE(espDraw(context, &def) == ESP_OK, espLastError(context));
@@ -32,7 +33,7 @@ std::vector<float> mask(const Life& life) {
 
 // A stroke of these dabs, ended.
 EspStroke painted(const Life& life, const std::vector<EspDab>& dabs, bool together) {
-    EspBrush brush = espDefaultBrush();
+    EspBrush brush = esp::defaults<EspBrush>();
     brush.layer = "mask";
     brush.radius = .05f;
     brush.strength = .4f;
@@ -135,7 +136,7 @@ TEST_CASE("plants are picked where their surface stands, at once") {
 
 TEST_CASE("a call without a context says so, whatever the last one said") {
     EspContext* context = nullptr;
-    CHECK(espCreate(nullptr, nullptr) == ESP_INVALID_ARGUMENT);
+    CHECK(espCreate(ESP_VERSION, nullptr, nullptr) == ESP_INVALID_ARGUMENT);
     const std::string before = espLastError(nullptr);
     CHECK(espUpdate(context) == ESP_INVALID_ARGUMENT);
     CHECK(espLastError(nullptr) != before);
@@ -161,7 +162,7 @@ TEST_CASE("brushes and surfaces of the least and largest sizes are taken") {
     REQUIRE((life.create(device) && life.load()));
     for (const float size : {1e-6f, 1e6f}) {
         CAPTURE(size);
-        EspBrush brush = espDefaultBrush();
+        EspBrush brush = esp::defaults<EspBrush>();
         brush.layer = "mask";
         brush.radius = size;
         EspStroke stroke{};

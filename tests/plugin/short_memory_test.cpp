@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/plugin/life.hpp"
 #include "tests/plugin/town_host.hpp"
 
@@ -35,13 +36,13 @@ constexpr const char* kRoofs =
 
 // Next time all grows anew.
 void growAnew(EspContext* context, uint32_t maxDepth) {
-    EspGrowDef grow = espDefaultGrowDef();
+    EspGrowDef grow = esp::defaults<EspGrowDef>();
     grow.maxDepth = maxDepth;
     REQUIRE(espSetGrow(context, &grow) == ESP_OK);
 }
 
 EspStroke begin(EspContext* context, const char* layer, EspBrushMode mode, float radius) {
-    EspBrush brush = espDefaultBrush();
+    EspBrush brush = esp::defaults<EspBrush>();
     brush.layer = layer;
     brush.mode = mode;
     brush.radius = radius;
@@ -74,7 +75,7 @@ std::vector<float> townLayerOf(Life& life, const char* name) {
 }
 
 uint32_t drawnTiles(Life& life) {
-    EspDrawDef def = espDefaultDrawDef();
+    esp::DrawDef def;
     def.width = def.height = 256;
     const float eye[3] = {5, 20, -4}, target[3] = {5, 0, -4.1f};
     std::memcpy(def.camera.eye, eye, sizeof eye);
@@ -129,7 +130,7 @@ TEST_CASE("plants grow where the town fails, and what was painted on it isn't lo
     REQUIRE(life.all(device));
     const float longer = 3;
     const EspGrammar roofs = compiled(life.context, "roofs", kRoofs);
-    EspTownDef town = espDefaultTownDef();
+    EspTownDef town = esp::defaults<EspTownDef>();
     town.text = kTown;
     town.length = std::strlen(kTown);
     town.grammar = roofs;
@@ -180,7 +181,7 @@ TEST_CASE("houses whose growth fails, and the whole town's after it, are drawn a
         FailingDevice device;
         Life life;
         REQUIRE(life.create(device));
-        EspTownDef def = espDefaultTownDef();
+        EspTownDef def = esp::defaults<EspTownDef>();
         def.text = town.c_str();
         def.length = town.size();
         def.grammar = compiled(life.context, "cells", kCells);
@@ -243,7 +244,7 @@ TEST_CASE("a fill or an import that memory ran short for has done nothing, on th
     REQUIRE((life.create(device) && life.load()));
     life.grammar =
         compiled(life.context, "ivy", "context decay = 0\nIvy -> Marching(0.05, 0, decay(texCoord) < 0.5) {Ivy}\n");
-    EspTownDef town = espDefaultTownDef();
+    EspTownDef town = esp::defaults<EspTownDef>();
     town.text = kTown;
     town.length = std::strlen(kTown);
     town.grammar = compiled(life.context, "roofs", kRoofs);
@@ -256,7 +257,7 @@ TEST_CASE("a fill or an import that memory ran short for has done nothing, on th
     const std::vector<float> surface = layerOf(life, "decay"), roofs = townLayerOf(life, "decay");
     const uint64_t hash = life.stats().hash;
     const std::vector<float> picture(surface.size(), .25f);
-    EspLayerDef def = espDefaultLayerDef();
+    EspLayerDef def = esp::defaults<EspLayerDef>();
     def.surface = life.surface;
     def.name = "decay";
     def.texels = picture.data();

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/plugin/life.hpp"
 #include "tests/plugin/starving.hpp"
 
@@ -17,10 +18,10 @@ TEST_CASE("a surface that the host has no memory to move stands where it stood, 
     const uint64_t hash = life.stats().hash;
     const auto standsAt = [&] {
         EspSurfaceInfo surface{};
-        EspSeedInfo seed{};
+        EspSeedDef seed{};
         REQUIRE(espSurfaceInfo(life.context, life.surface, &surface) == ESP_OK);
-        REQUIRE(espSeedInfo(life.context, life.seed, &seed) == ESP_OK);
-        return std::pair(surface.boundsMin[0], seed.def.position[0]);
+        REQUIRE(espSeedDef(life.context, life.seed, &seed) == ESP_OK);
+        return std::pair(surface.boundsMin[0], seed.position[0]);
     };
     const auto before = standsAt();
     EspTransform place = espIdentity();
@@ -45,7 +46,7 @@ TEST_CASE("a town's layer that the host has no memory to set is as it was, or th
     FailingDevice device;
     Life life;
     REQUIRE(life.create(device));
-    EspTownDef town = espDefaultTownDef();
+    EspTownDef town = esp::defaults<EspTownDef>();
     town.text = kTown;
     town.length = std::strlen(kTown);
     REQUIRE(espLoadTown(life.context, &town) == ESP_OK);

@@ -31,23 +31,33 @@ static const char* kGrammar =
     "Tile -> Drop(decay) Shape(\"slate\")\n";
 
 static EspRoofStats stats(EspContext* context) {
-    EspRoofStats s;
+    EspRoofStats s = {.structSize = sizeof s};
     OK(context, espReadRoofStats(context, &s));
     return s;
 }
 
 enum { kSide = 256 };
 
+static EspCamera camera;
+static EspLook look;
+
 /* The first house seen from straight above, near enough for each tile to be one. */
 static EspDrawDef fromAbove(void) {
-    EspDrawDef draw = espDefaultDrawDef();
+    EspDrawDef draw = {.structSize = sizeof draw};
+    camera.structSize = sizeof camera;
+    look.structSize = sizeof look;
+    espDefaultDrawDef(&draw);
+    espDefaultCamera(&camera);
+    espDefaultLook(&look);
     draw.width = draw.height = kSide;
-    draw.camera.eye[0] = draw.camera.target[0] = 5;
-    draw.camera.eye[1] = 20;
-    draw.camera.target[1] = 0;
-    draw.camera.eye[2] = -4.f;
-    draw.camera.target[2] = -4.1f;
-    draw.look.shadows = 0;
+    draw.camera = &camera;
+    draw.look = &look;
+    camera.eye[0] = camera.target[0] = 5;
+    camera.eye[1] = 20;
+    camera.target[1] = 0;
+    camera.eye[2] = -4.f;
+    camera.target[2] = -4.1f;
+    look.shadows = 0;
     return draw;
 }
 
@@ -71,7 +81,8 @@ static int shownOtherwise(EspContext* context, const EspDrawDef* draw, uint8_t* 
 }
 
 static EspStroke dab(EspContext* context, const char* layer, float x, float z, float radius) {
-    EspBrush brush = espDefaultBrush();
+    EspBrush brush = {.structSize = sizeof brush};
+    espDefaultBrush(&brush);
     EspDab at = {{0, 0, 0}, {0, 1, 0}, 1};
     EspStroke stroke = {0};
     brush.layer = layer;
@@ -91,13 +102,13 @@ static void views(EspContext* context) {
     static uint8_t picture[kSide * kSide * 4];
     EspDrawDef draw = fromAbove();
     (void)shownOtherwise(context, &draw, picture);
-    draw.look.view = ESP_VIEW_LAYER;
-    draw.look.viewLayer = "rise";
-    draw.look.viewOpacity = 0;
+    look.view = ESP_VIEW_LAYER;
+    look.viewLayer = "rise";
+    look.viewOpacity = 0;
     CHECK(shownOtherwise(context, &draw, picture) == 0);
-    draw.look.viewOpacity = .5f;
+    look.viewOpacity = .5f;
     const int half = shownOtherwise(context, &draw, picture);
-    draw.look.viewOpacity = 1;
+    look.viewOpacity = 1;
     const int whole = shownOtherwise(context, &draw, picture);
     CHECK(half > kSide * kSide / 4 && whole > kSide * kSide / 4);
     const EspStroke stroke = dab(context, "rise", 5, -4, 1.5f);
@@ -105,13 +116,13 @@ static void views(EspContext* context) {
     CHECK(painted > 1000 && painted < kSide * kSide / 2);
     OK(context, espSwapStroke(context, stroke));
     CHECK(shownOtherwise(context, &draw, picture) == painted);
-    draw.look.viewLayer = "nobody's at all";
+    look.viewLayer = "nobody's at all";
     REFUSED(espDraw(context, &draw));
 }
 
 static void houses(EspContext* context) {
-    EspHouseInfo info;
-    EspHouseDef change = {ESP_ROOF_GABLE, 1, 0, NULL, 0, NULL, 0, NULL, 0, NULL};
+    EspHouseInfo info = {.structSize = sizeof info};
+    EspHouseDef change = {.structSize = sizeof change, .shape = ESP_ROOF_GABLE, .slope = 1};
     float corners[8];
     CHECK(espHouseCount(context) == kHouses);
     OK(context, espHouseInfo(context, 3, &info));
@@ -135,16 +146,18 @@ static void houses(EspContext* context) {
     OK(context, espSetHouse(context, 3, &change));
     OK(context, espHouseInfo(context, 3, &info));
     CHECK(info.edgeCount == 1 && fabsf(info.boundsMax[0] - 72) < 1e-3f);
-    EspHouseLook look = {ESP_COVERING_SLATE, 1, {0.5f, 0, 1}, 0.5f, ESP_CHIMNEYS_NONE};
-    change.look = &look;
+    EspHouseLook dressed = {sizeof dressed, ESP_COVERING_SLATE, 1, {0.5f, 0, 1}, 0.5f, ESP_CHIMNEYS_NONE};
+    EspHouseLook found = {.structSize = sizeof found};
+    change.look = &dressed;
     OK(context, espSetHouse(context, 3, &change));
     OK(context, espHouseInfo(context, 3, &info));
-    CHECK(info.look.covering == ESP_COVERING_SLATE && info.look.coloured && fabsf(info.look.colour[0] - 0.5f) < 0.01f);
-    CHECK(info.look.colour[1] == 0 && info.look.overhang == 0.5f && info.look.chimneys == ESP_CHIMNEYS_NONE);
-    look.overhang = 2;
+    OK(context, espHouseLook(context, 3, &found));
+    CHECK(found.covering == ESP_COVERING_SLATE && found.coloured && fabsf(found.colour[0] - 0.5f) < 0.01f);
+    CHECK(found.colour[1] == 0 && found.overhang == 0.5f && found.chimneys == ESP_CHIMNEYS_NONE);
+    dressed.overhang = 2;
     REFUSED(espSetHouse(context, 3, &change));
-    look.overhang = 0;
-    look.covering = (EspCovering)99;
+    dressed.overhang = 0;
+    dressed.covering = (EspCovering)99;
     REFUSED(espSetHouse(context, 3, &change));
     change.look = NULL;
     change.slope = -1;
@@ -166,10 +179,16 @@ static void houses(EspContext* context) {
 
 /* A courtyard that comes, is moved, and goes. */
 static void courtyards(EspContext* context) {
-    EspHouseInfo info;
+    EspHouseInfo info = {.structSize = sizeof info};
     float corners[16], now[16];
     uint32_t rings[2] = {4, 4}, found[2] = {0, 0};
-    EspHouseDef change = {ESP_ROOF_HIP, 1, 0, NULL, 0, corners, 8, rings, 2, NULL};
+    EspHouseDef change = {.structSize = sizeof change,
+                          .shape = ESP_ROOF_HIP,
+                          .slope = 1,
+                          .corners = corners,
+                          .cornerCount = 8,
+                          .rings = rings,
+                          .ringCount = 2};
     OK(context, espHouseShape(context, 2, corners, NULL));
     const float x = 40, z = -4; /* the house's middle less five metres along x */
     for (int i = 0; i < 4; ++i) {
@@ -230,7 +249,7 @@ static void courtyards(EspContext* context) {
 }
 
 static void layers(EspContext* context) {
-    EspTownInfo info;
+    EspTownInfo info = {.structSize = sizeof info};
     OK(context, espTownInfo(context, &info));
     CHECK(info.houses == kHouses && info.layerSide >= 158 && info.layerTexels >= 512);
     CHECK(info.layerLow[0] < 0 && info.layerLow[0] + info.layerSide > 150);
@@ -283,8 +302,8 @@ static void layers(EspContext* context) {
     side = 2048;
     OK(context, espReadTownLayer(context, "nobody's", texels, &side));
     EspDrawDef unseen = fromAbove();
-    unseen.look.view = ESP_VIEW_LAYER;
-    unseen.look.viewLayer = "nobody's";
+    look.view = ESP_VIEW_LAYER;
+    look.viewLayer = "nobody's";
     OK(context, espDraw(context, &unseen));
     CHECK(texels[0] == 0 && texels[side - 1] == 1);
     OK(context, espUpdate(context));
@@ -307,8 +326,8 @@ static void manyEdits(EspContext* context) {
     const EspRoofStats before = stats(context);
     uint64_t settled = 0;
     for (int i = 0; i < 1500; ++i) {
-        EspHouseDef change = {ESP_ROOF_HIP, i % 2 ? 1.f : 1.1f, 0, NULL, 0, NULL, 0, NULL, 0, NULL};
-        EspStats all;
+        EspHouseDef change = {.structSize = sizeof change, .shape = ESP_ROOF_HIP, .slope = i % 2 ? 1.f : 1.1f};
+        EspStats all = {.structSize = sizeof all};
         OK(context, espSetHouse(context, 5, &change));
         OK(context, espUpdate(context));
         OK(context, espReadStats(context, &all));
@@ -323,7 +342,7 @@ static void manyEdits(EspContext* context) {
 
 /* What is upright below the eaves are walls. */
 static void triangles(EspContext* context) {
-    EspTriangles t;
+    EspTriangles t = {.structSize = sizeof t};
     OK(context, espMaterialise(context, &t));
     CHECK(t.vertexCount > 1000 && t.indexCount % 3 == 0 && t.indexCount > 1000);
     double walls = 0;
@@ -345,7 +364,7 @@ static void triangles(EspContext* context) {
 
 /* A town whose grammar was destroyed has no triangles, before the update that takes its roofs away and after it. */
 static void grammarGone(EspContext* context, EspGrammar grammar) {
-    EspTriangles t;
+    EspTriangles t = {.structSize = sizeof t};
     OK(context, espMaterialise(context, &t));
     CHECK(t.indexCount > 1000);
     OK(context, espDestroyGrammar(context, grammar));
@@ -362,9 +381,10 @@ static void origins(EspContext* context) {
         "{\"type\": \"Polygon\", \"coordinates\": [[[11.5,48.1],[11.5002,48.1],[11.5002,48.1001],[11.5,48.1]]]}";
     static const char* const far =
         "{\"buildings\": [{\"outer\": [[691603,5334760],[691613.25,5334760],[691603,5334769.35]]}]}";
-    EspTownInfo info;
-    EspHouseInfo house;
-    EspTownDef load = espDefaultTownDef();
+    EspTownInfo info = {.structSize = sizeof info};
+    EspHouseInfo house = {.structSize = sizeof house};
+    EspTownDef load = {.structSize = sizeof load};
+    espDefaultTownDef(&load);
     OK(context, espTownInfo(context, &info));
     CHECK(!info.geographic && info.origin[0] == 0 && info.origin[1] == 0);
     load.text = degrees;
@@ -384,13 +404,15 @@ static void origins(EspContext* context) {
 
 int main(void) {
     EspContext* context = NULL;
-    EspContextDef def = espDefaultContextDef();
+    EspContextDef def = {.structSize = sizeof def};
+    espDefaultContextDef(&def);
     EspGrammar grammar = {0}, ivy = {0};
-    EspGrammarDef text = {"town", kGrammar, strlen(kGrammar)};
+    EspGrammarDef text = {sizeof text, "town", kGrammar, strlen(kGrammar)};
     def.validation = 1;
-    OK(context, espCreate(&def, &context));
+    OK(context, espCreate(ESP_VERSION, &def, &context));
 
-    EspTownDef load = espDefaultTownDef();
+    EspTownDef load = {.structSize = sizeof load};
+    espDefaultTownDef(&load);
     CHECK(load.ground == 1);
     REFUSED(espLoadTown(context, &load));
     load.text = "{}";
@@ -401,8 +423,8 @@ int main(void) {
     load.grammar.id = 77;
     REFUSED(espLoadTown(context, &load));
     load.grammar.id = 0;
-    EspHouseInfo house;
-    EspTownInfo info;
+    EspHouseInfo house = {.structSize = sizeof house};
+    EspTownInfo info = {.structSize = sizeof info};
     REFUSED(espTownInfo(context, &info));
     REFUSED(espHouseInfo(context, 0, &house));
     REFUSED(espSetTownGrammar(context, grammar));
@@ -428,7 +450,7 @@ int main(void) {
     /* Furnishing: what can't stand is refused by name, and the last that stood goes on. */
     EspPropPlace place = {"bench", {1, 0, 1}, 0, 1};
     const uint8_t street[8] = {255, 0, 255, 255, 0, 0, 255, 255};
-    EspSiteDef site = {street, 2, 1, {0, 0}, {10, 10}};
+    EspSiteDef site = {sizeof site, street, 2, 1, {0, 0}, {10, 10}};
     CHECK(espSetProps(context, "/no/such/file.glb", &place, 1) == ESP_IO_FAILED);
     CHECK(strstr(espLastError(context), "/no/such/file.glb") != NULL);
     REFUSED(espSetProps(context, "/no/such/file.glb", NULL, 1));
@@ -458,7 +480,7 @@ int main(void) {
     CHECK(espHouseCount(context) == 0);
     OK(context, espUpdate(context));
 
-    EspStats all;
+    EspStats all = {.structSize = sizeof all};
     OK(context, espReadStats(context, &all));
     CHECK(all.validationMessages == 0);
     espDestroy(context);

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/plugin/life.hpp"
 
 using namespace espalier;
@@ -18,8 +19,8 @@ TEST_CASE("a grammar whose rules lead on without end leaves the last roofs, and 
         "House -> Extrude(wallHeight) {NULL, Top}\nTop -> Join(roofHeight, roofPos1, roofPos2) {Shape(\"slate\"), "
         "NULL, "
         "Top}\n";
-    const auto def = [](const std::string& text) { return EspGrammarDef{"tiles.grammar", text.c_str(), text.size()}; };
-    EspTownDef town = espDefaultTownDef();
+    const auto def = [](const std::string& text) { return esp::grammarDef("tiles.grammar", text); };
+    EspTownDef town = esp::defaults<EspTownDef>();
     town.text = kTown;
     town.length = std::strlen(kTown);
     EspGrammarDef first = def(good);

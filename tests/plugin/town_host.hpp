@@ -8,19 +8,20 @@
 #include <string>
 #include <vector>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/plugin/life.hpp"
 
 namespace espalier {
 
 inline EspGrammar compiled(EspContext* context, const char* name, const std::string& text) {
-    const EspGrammarDef def{name, text.data(), text.size()};
+    const EspGrammarDef def = esp::grammarDef(name, text);
     EspGrammar grammar{};
     REQUIRE_MESSAGE(espCompileGrammar(context, &def, &grammar) == ESP_OK, espLastError(context));
     return grammar;
 }
 
 inline EspBrush brushOn(const char* layer, float radius) {
-    EspBrush brush = espDefaultBrush();
+    EspBrush brush = esp::defaults<EspBrush>();
     brush.layer = layer;
     brush.radius = radius;
     return brush;
@@ -35,7 +36,7 @@ inline EspStroke stroke(EspContext* context, const EspBrush& brush, const EspDab
 }
 
 inline void load(EspContext* context, EspGrammar grammar, const char* text) {
-    EspTownDef town = espDefaultTownDef();
+    EspTownDef town = esp::defaults<EspTownDef>();
     town.text = text;
     town.length = std::strlen(text);
     town.grammar = grammar;

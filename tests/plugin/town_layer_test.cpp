@@ -1,6 +1,7 @@
 // What is painted over a town and what is painted on surfaces.
 #include <algorithm>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/plugin/town_host.hpp"
 
 using namespace espalier;
@@ -19,7 +20,7 @@ TEST_CASE("a layer that roofs alone read is painted over the town, and on surfac
     REQUIRE((life.create(device) && life.load()));
     EspContext* context = life.context;
     constexpr const char* kTown = "{\"buildings\": [{\"id\": \"h\", \"outer\": [[0,0],[10,0],[10,8],[0,8]]}]}";
-    EspTownDef town = espDefaultTownDef();
+    EspTownDef town = esp::defaults<EspTownDef>();
     town.text = kTown;
     town.length = std::strlen(kTown);
     town.grammar = compiled(context, "roofs",
@@ -159,7 +160,7 @@ struct Hiding : Bare {
     void wantElsewhere(const char* fill) const {
         std::string text = kHiding;
         text.replace(text.find("decay = 0"), 9, std::string("decay = ") + fill);
-        const EspGrammarDef def{"roofs", text.c_str(), text.size()};
+        const EspGrammarDef def = esp::grammarDef("roofs", text);
         REQUIRE(espRecompileGrammar(context, roofs, &def) == ESP_OK);
     }
 };

@@ -1,6 +1,7 @@
 // What a town's roofs are while nothing new of them has grown: as they stand, whatever is asked for.
 #include <algorithm>
 
+#include "plugin_api/espalier.hpp"
 #include "tests/plugin/town_host.hpp"
 
 using namespace espalier;
@@ -28,7 +29,7 @@ struct Houses : Bare {
         REQUIRE_MESSAGE(got == expected, espLastError(context));
     }
     void ask(const std::string& text) const {
-        const EspGrammarDef def{"roofs", text.c_str(), text.size()};
+        const EspGrammarDef def = esp::grammarDef("roofs", text);
         REQUIRE_MESSAGE(espRecompileGrammar(context, roofs, &def) == ESP_OK, espLastError(context));
     }
     std::vector<std::byte> triangles() const {
@@ -38,7 +39,7 @@ struct Houses : Bare {
         return {bytes, bytes + made.vertexCount * 16};
     }
     std::vector<uint8_t> picture(const EspCamera& camera) const {
-        EspDrawDef def = espDefaultDrawDef();
+        esp::DrawDef def;
         def.width = 160;
         def.height = 90;
         def.camera = camera;
@@ -68,7 +69,7 @@ TEST_CASE("where a town's growth fails its roofs are drawn and given as triangle
     REQUIRE(espSetHouse(host.context, 1, &hip) == ESP_OK);  // grown behind the others
     stroke(host.context, brushOn("moss", 3), {{5, 0, -4}, {0, 1, 0}, 1});
     host.update(ESP_OK);
-    const EspCamera camera = espFrameAll(host.context);
+    const EspCamera camera = esp::frameAll(host.context);
     const std::vector<uint8_t> before = host.picture(camera);
     const std::vector<std::byte> stood = host.triangles();
     REQUIRE(stood.size() > 16000);
@@ -141,7 +142,7 @@ TEST_CASE("a layer that went with its stroke's undoing and comes again shows not
             REQUIRE(espTownLayerCount(host.context) == 0);
             host.update(ESP_OK);
         }
-        const EspCamera camera = espFrameAll(host.context);
+        const EspCamera camera = esp::frameAll(host.context);
         pictures.push_back(host.picture(camera));
         stroke(host.context, brush, second);
         host.update(ESP_OK);
@@ -192,12 +193,12 @@ TEST_CASE("a grammar that is refused leaves no layers behind") {
     };
     (void)compiled(host.context, "first", reading("a"));
     const std::string text = reading("b");  // more than there are layers
-    const EspGrammarDef second{"second", text.data(), text.size()};
+    const EspGrammarDef second = esp::grammarDef("second", text);
     EspGrammar refused{};
     REQUIRE(espCompileGrammar(host.context, &second, &refused) == ESP_INVALID_CONTENT);
-    EspDrawDef draw = espDefaultDrawDef();
+    esp::DrawDef draw;
     draw.width = draw.height = 16;
-    draw.camera = espFrameAll(host.context);
+    draw.camera = esp::frameAll(host.context);
     draw.look.view = ESP_VIEW_LAYER;
     for (const auto& [layer, result] : {std::pair("a3", ESP_OK), {"b3", ESP_INVALID_ARGUMENT}}) {
         draw.look.viewLayer = layer;

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "plugin_api/espalier.h"
+#include "plugin_api/espalier.hpp"
 
 namespace {
 
@@ -65,25 +65,25 @@ class Life {
         return result == ESP_OK;
     }
     void create() {
-        EspContextDef def = espDefaultContextDef();
+        EspContextDef def = esp::defaults<EspContextDef>();
         const std::string terminals = std::string(ESPALIER_CONTENT) + "/terminals.glb";
         def.terminals = terminals.c_str();
-        done("create", espCreate(&def, &context_));
+        done("create", espCreate(ESP_VERSION, &def, &context_));
     }
     EspGrammar compile(const char* text) {
-        const EspGrammarDef def{"text", text, std::strlen(text)};
+        const EspGrammarDef def = esp::grammarDef("text", text);
         EspGrammar grammar{};
         done("compile", espCompileGrammar(context_, &def, &grammar));
         return grammar;
     }
     void grow(bool shaders) {
-        EspGrowDef grow = espDefaultGrowDef();
+        EspGrowDef grow = esp::defaults<EspGrowDef>();
         grow.shadersOnly = shaders;
         done("set grow", espSetGrow(context_, &grow));
         done("load", espLoadSurface(context_, ESPALIER_SQUARE, nullptr, &surface_));
         ivy_ = compile(kIvy);
         for (uint32_t i = 0; i < 4; ++i) {
-            EspSeedDef seed = espDefaultSeedDef();
+            EspSeedDef seed = esp::defaults<EspSeedDef>();
             seed.grammar = ivy_;
             seed.position[0] = .2f * float(i) - .3f;
             seed.direction[1] = 1;
@@ -98,16 +98,16 @@ class Life {
         return stats.hash;
     }
     void draw() {
-        EspDrawDef def = espDefaultDrawDef();
+        esp::DrawDef def;
         def.width = kWidth;
         def.height = kHeight;
-        def.camera = espFrameAll(context_);
+        def.camera = esp::frameAll(context_);
         std::vector<uint8_t> pixels(size_t(kWidth) * kHeight * 4);
         done("draw", espDraw(context_, &def));
         done("read", espReadPixels(context_, pixels.data(), pixels.size()));
     }
     void paint() {
-        EspBrush brush = espDefaultBrush();
+        EspBrush brush = esp::defaults<EspBrush>();
         brush.layer = "mask";
         brush.value = 0;
         brush.strength = 1;
@@ -119,7 +119,7 @@ class Life {
         done("end", espEndStroke(context_, stroke));
     }
     void build() {
-        EspTownDef town = espDefaultTownDef();
+        EspTownDef town = esp::defaults<EspTownDef>();
         town.text = kTown;
         town.length = std::strlen(kTown);
         town.grammar = compile(kRoofs);

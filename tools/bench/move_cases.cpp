@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugin_api/espalier.h"
+#include "plugin_api/espalier.hpp"
 #include "tools/bake/bake.hpp"
 #include "tools/bench/bench.hpp"
 #include "tools/bench/bench_scene.hpp"
@@ -53,10 +53,10 @@ class Walls {
         path_ = (std::filesystem::temp_directory_path() / ("espalier_bench_wall_" + std::to_string(getpid()) + ".glb"))
                     .string();
         if (!writeSurface(baked->surface, path_)) return false;
-        EspContextDef def = espDefaultContextDef();
+        EspContextDef def = esp::defaults<EspContextDef>();
         const std::string text = branchingGrammar(0.02f, 100, 40);
-        const EspGrammarDef grammar{"wall", text.c_str(), text.size()};
-        if (espCreate(&def, &context_) != ESP_OK || !load(0, kFar, beside_) || !load(0, 0, wall_) ||
+        const EspGrammarDef grammar = esp::grammarDef("wall", text);
+        if (espCreate(ESP_VERSION, &def, &context_) != ESP_OK || !load(0, kFar, beside_) || !load(0, 0, wall_) ||
             espCompileGrammar(context_, &grammar, &grammar_) != ESP_OK)
             return false;
         if (!plant(0, kNodesOnWall)) return false;
@@ -79,16 +79,16 @@ class Walls {
     }
     bool update() { return espUpdate(context_) == ESP_OK; }
     bool growAll() {
-        EspGrowDef grow = espDefaultGrowDef();
+        EspGrowDef grow = esp::defaults<EspGrowDef>();
         grow.maxDepth -= ++timesAll_ % 2;
         return espSetGrow(context_, &grow) == ESP_OK && update();
     }
     // A small picture, for what is bound for it.
     bool draw() {
-        EspDrawDef def = espDefaultDrawDef();
+        esp::DrawDef def;
         def.width = 64;
         def.height = 36;
-        def.camera = espFrameAll(context_);
+        def.camera = esp::frameAll(context_);
         def.look.shadows = 0;
         return espDraw(context_, &def) == ESP_OK;
     }
@@ -108,7 +108,7 @@ class Walls {
     bool plant(float z, uint32_t nodes) {
         while (stats().nodes < nodes) {
             for (int i = 0; i < (nodes > kNodesOnWall ? 200 : 4); ++i) {
-                EspSeedDef def = espDefaultSeedDef();
+                EspSeedDef def = esp::defaults<EspSeedDef>();
                 def.grammar = grammar_;
                 def.number = ++seeds_;
                 def.position[0] = -1.9f + 3.8f * float(seeds_ * 37 % 97) / 97;

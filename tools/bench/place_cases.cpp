@@ -13,6 +13,7 @@
 #include <optional>
 #include <utility>
 
+#include "plugin_api/espalier.hpp"
 #include "tools/bench/bench.hpp"
 #include "tools/scene/moving.hpp"
 #include "tools/scene/scene.hpp"
@@ -79,7 +80,7 @@ struct PlaceFilm {
 
     // `edit`: what is done to the scene in it.
     Cost frame(const EspCamera& camera, bool moving, const std::function<bool()>& edit = {}) {
-        EspDrawDef draw = espDefaultDrawDef();
+        esp::DrawDef draw;
         draw.camera = camera;
         draw.look = scene.look;
         draw.look.shadowsLag = 1;
@@ -88,7 +89,7 @@ struct PlaceFilm {
             draw.look.viewLayer = layer;
             draw.look.viewOpacity = kLayerOpacity;
         }
-        share = picture.prepare(draw, moving, stats.drawMs, !fixed);
+        share = picture.prepare(draw.look, moving, stats.drawMs, !fixed);
         if (draw.look.quick && fixed) {
             share = *fixed;
             draw.look.lodPixels *= share / scene::MovingDetail::kShare;
@@ -159,7 +160,7 @@ class Hand {
 
   private:
     bool begin(int stroke) {
-        EspBrush brush = espDefaultBrush();
+        EspBrush brush = esp::defaults<EspBrush>();
         brush.layer = "mask";
         brush.radius = 0.25f;
         brush.strength = 1;
@@ -185,7 +186,7 @@ bool thicken(EspContext* context, scene::Scene& scene, EspStats& stats) {
         if (espUpdate(context) != ESP_OK || espReadStats(context, &stats) != ESP_OK) return false;
         if (stats.nodes >= kNodes) return true;
         const scene::Seed& seed = seeds[i % seeds.size()];
-        EspSeedDef def = espDefaultSeedDef();
+        EspSeedDef def = esp::defaults<EspSeedDef>();
         def.grammar = scene.grammars[seed.grammar].id;
         std::copy(seed.position.begin(), seed.position.end(), def.position);
         std::copy(seed.direction.begin(), seed.direction.end(), def.direction);
@@ -316,9 +317,9 @@ void placeCases(Bench& bench) {
     const bool stages = wanted({"frame/device", "frame/device/expand", "frame/device/draw"});
     if (!sample && !dense && !stages) return;
     const char* name = sample ? "frame/place" : dense ? "frame/dense" : "frame/device";
-    const EspContextDef def = espDefaultContextDef();
+    const EspContextDef def = esp::defaults<EspContextDef>();
     EspContext* made = nullptr;
-    if (espCreate(&def, &made) != ESP_OK) return bench.skip(name, espLastError(nullptr));
+    if (espCreate(ESP_VERSION, &def, &made) != ESP_OK) return bench.skip(name, espLastError(nullptr));
     const std::unique_ptr<EspContext, void (*)(EspContext*)> context(made, espDestroy);
     scene::Scene scene;
     scene::Request request;

@@ -15,6 +15,7 @@
 #include <tuple>
 #include <utility>
 
+#include "plugin_api/espalier.hpp"
 #include "tools/command_line.hpp"
 #include "tools/document/document.hpp"
 #include "tools/document/layer_files.hpp"
@@ -48,7 +49,7 @@ struct Options {
     std::string size, folder = "out", stats, view = "shaded", walk, camera, cache = cacheFolder(), replay;
     uint32_t every = 1;
     long long seed = -1;
-    uint32_t maxNodes = espDefaultGrowDef().maxNodes;
+    uint32_t maxNodes = esp::defaults<EspGrowDef>().maxNodes;
     float leafCap = 0;
     bool sized = false, aimed = false;  // --size, --camera say something, be it nothing
     bool shaders = false, validation = false, moving = false;
@@ -196,7 +197,7 @@ std::string statsJson(const EspStats& stats, const EspRoofStats& roofs, const Es
 // Where frames go and how they look.
 struct Film {
     EspContext* context;
-    EspDrawDef draw = espDefaultDrawDef();
+    esp::DrawDef draw;
     std::string folder;
     bool moving = false;
     bool rests = true;  // growth does: shadows that lag make no picture depend on which others are taken
@@ -210,7 +211,7 @@ struct Film {
         return !code;
     }
     bool take(uint32_t frame, std::string& error) {
-        EspDrawDef shown = draw;
+        esp::DrawDef shown = draw;
         if (moving) espalier::scene::MovingDetail().apply(shown.look);
         shown.look.shadowsLag = moving && rests;
         if (espDraw(context, &shown) != ESP_OK || espReadPixels(context, pixels.data(), pixels.size()) != ESP_OK) {
@@ -281,7 +282,7 @@ bool filmRun(const Run& run, const std::string& file, uint32_t every, Document& 
         }
         if (frame % every && frame + 1 < frames) continue;
         film.draw.camera = document.scene().camera;
-        film.draw.camera.nearPlane = espFrameAll(film.context).nearPlane;  // as of a scene that is opened like this
+        film.draw.camera.nearPlane = esp::frameAll(film.context).nearPlane;  // as of a scene that is opened like this
         film.draw.look = document.scene().look;
         film.draw.look.viewLayer = document.scene().viewLayer.c_str();
         if (!film.take(frame, error)) {
@@ -303,7 +304,7 @@ int run(Options options) {
         if (options.request.file.empty()) options.request.file = recorded.head.scene;
         if (options.size.empty()) options.width = recorded.head.width, options.height = recorded.head.height;
     }
-    EspContextDef def = espDefaultContextDef();
+    EspContextDef def = esp::defaults<EspContextDef>();
     const char* wanted = std::getenv("ESPALIER_VALIDATION");
     def.validation = options.validation || (wanted && std::string(wanted) == "1");
     if (!options.cache.empty()) def.cacheFolder = options.cache.c_str();
@@ -312,7 +313,7 @@ int run(Options options) {
         if (level == ESP_LOG_WARNING) warn(message);
     };
     EspContext* made = nullptr;
-    if (espCreate(&def, &made) != ESP_OK) return fail(espLastError(nullptr));
+    if (espCreate(ESP_VERSION, &def, &made) != ESP_OK) return fail(espLastError(nullptr));
     const std::unique_ptr<EspContext, void (*)(EspContext*)> context(made, espDestroy);
 
     EspGrowDef& grow = options.request.grow;
@@ -331,7 +332,7 @@ int run(Options options) {
     if (espUpdate(made) != ESP_OK) return fail(espLastError(made));
 
     Scene scene = document.scene();
-    Film film{made, espDefaultDrawDef(), options.folder, options.moving, !replays, {}};
+    Film film{made, esp::DrawDef(), options.folder, options.moving, !replays, {}};
     film.draw.width = options.width;
     film.draw.height = options.height;
     film.draw.look = scene.look;
@@ -363,7 +364,8 @@ int run(Options options) {
         warn(std::to_string(planted - grown) + " of " + std::to_string(planted) +
              " seeds don't grow: they stand on bare ground, or another surface lies upon theirs");
     film.warnOfOld(replays ? recorded.frames() : options.frames);
-    if (!options.stats.empty() && !writeText(options.stats, statsJson(stats, roofs, patterns), error)) return fail(error);
+    if (!options.stats.empty() && !writeText(options.stats, statsJson(stats, roofs, patterns), error))
+        return fail(error);
     std::printf("%u frames in %s: %u seeds, %" PRIu64 " nodes, %u branches, %" PRIu64 " leaves, %" PRIu64
                 " polygons (%s)\n",
                 taken, options.folder.c_str(), stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons,
@@ -389,7 +391,7 @@ std::string readTexts(Options& options) {
         return "--size takes WIDTHxHEIGHT, 1 to 16384 each, not '" + options.size + "'";
     EspLook look{};
     if (!parseView(options.view, look)) return "--view: no such view: " + options.view;
-    EspCamera camera = espDefaultDrawDef().camera;
+    EspCamera camera = esp::defaults<EspCamera>();
     if (options.aimed && !parseCamera(options.camera, camera))
         return "--camera takes six or seven numbers with commas between them, eye and target apart, an angle as a "
                "scene's, not '" +

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plugin_api/espalier.hpp"
 #include "tools/document/document.hpp"
 #include "tools/document/fields.hpp"
 #include "tools/document/layer_history.hpp"
@@ -31,7 +32,7 @@ float valueOf(const std::vector<float>& colour, float value, size_t channel) {
 }  // namespace
 
 bool brushOf(const StrokeBegin& stroke, EspBrush& brush, std::string& error) {
-    brush = espDefaultBrush();
+    brush = esp::defaults<EspBrush>();
     brush.layer = stroke.layer.c_str();
     if (!modeNamed(stroke.mode, brush.mode)) {
         error = "there is no brush that does '" + stroke.mode + "'";

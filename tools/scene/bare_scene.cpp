@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "plugin_api/espalier.hpp"
 #include "tools/scene/scene_parts.hpp"
 #include "tools/scene/text_file.hpp"
 
@@ -158,7 +159,7 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
     if (!compileFile(context, grammar, error)) return false;
     out.grammars.push_back(grammar);
     fitToModel(context, info, grammar);
-    out.camera = espFrameAll(context);
+    out.camera = esp::frameAll(context);
     if (makesPatterns(context, grammar))
         plantInSight(context, request.seed.value_or(1), out);
     else
@@ -175,7 +176,7 @@ bool openTown(EspContext* context, const Request& request, Scene& out, std::stri
     out.grammars.push_back(grammar);
     out.town = SceneTown{request.file, -1, {}, true, {}};
     if (!loadTown(context, out, error)) return false;
-    out.camera = espFrameAll(context);
+    out.camera = esp::frameAll(context);
     return true;
 }
 

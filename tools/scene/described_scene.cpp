@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "plugin_api/espalier.hpp"
 #include "tools/scene/carried.hpp"
 #include "tools/scene/layers.hpp"
 #include "tools/scene/picture.hpp"
@@ -154,7 +155,7 @@ bool keepListed(EspContext* context, const SceneFile& file, const Scene& scene, 
         const auto lies = [&](const SceneLayer& listed) {
             return listed.name == layer && (listed.surface == int(i) || listed.surface == -1);
         };
-        EspLayerDef def = espDefaultLayerDef();
+        EspLayerDef def = esp::defaults<EspLayerDef>();
         def.surface = scene.surfaces[i].id;
         def.name = layer.c_str();
         if (std::ranges::none_of(file.layers, lies) && !fromContext(context, espSetLayer(context, &def), error))
@@ -237,7 +238,7 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
     noteLayers(context, out);
     if (!fillLayers(context, request, file, out, error)) return false;
     if (!layLayers(context, request, file, parts, out, error)) return false;
-    out.camera = espFrameAll(context);
+    out.camera = esp::frameAll(context);
     if (file.hasCamera) {
         std::copy(file.eye.begin(), file.eye.end(), out.camera.eye);
         std::copy(file.target.begin(), file.target.end(), out.camera.target);

@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "plugin_api/espalier.hpp"
+
 namespace espalier::scene {
 namespace {
 
@@ -32,7 +34,7 @@ EspResult setFields(EspContext* context, EspSurface surface, const std::vector<S
             std::memcpy(out.direction, e.direction.data(), sizeof out.direction);
             out.radius = e.radius;
         }
-        EspFieldDef def = espDefaultFieldDef();
+        EspFieldDef def = esp::defaults<EspFieldDef>();
         def.elements = elements.data();
         def.elementCount = uint32_t(elements.size());
         std::memcpy(def.drift, field.drift.data(), sizeof def.drift);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "plugin_api/espalier.hpp"
 #include "tools/scene/scene_parts.hpp"
 #include "tools/scene/text_file.hpp"
 
@@ -54,7 +55,7 @@ bool loadTown(EspContext* context, Scene& out, std::string& error) {
     const SceneTown& town = *out.town;
     std::string text;
     if (!readText(town.file, text, error)) return false;
-    EspTownDef def = espDefaultTownDef();
+    EspTownDef def = esp::defaults<EspTownDef>();
     def.name = town.file.c_str();
     def.text = text.data();
     def.length = text.size();

@@ -95,11 +95,11 @@ class MovingPicture {
     static constexpr double kSlowDrawMs = 40;  // a device that takes longer over a whole picture is slow
 
     // Before a frame: moving: the camera does, or a stroke goes on; drawMs: what the last picture took; smaller: such
-    // pictures may be smaller. Makes `draw` coarser if need be; returns the share of the window's width to draw.
-    float prepare(EspDrawDef& draw, bool moving, double drawMs, bool smaller) {
+    // pictures may be smaller. Makes `look` coarser if need be; returns the share of the window's width to draw.
+    float prepare(EspLook& look, bool moving, double drawMs, bool smaller) {
         hurried_ = moving && (coarse_ || drawMs > kSlowDrawMs);
         shown_ = hurried_ && smaller ? share_.share() : 1;
-        if (hurried_) detail_.apply(draw.look, smaller ? shown_ : MovingDetail::kShare);
+        if (hurried_) detail_.apply(look, smaller ? shown_ : MovingDetail::kShare);
         return shown_;
     }
 

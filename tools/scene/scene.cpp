@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "plugin_api/espalier.hpp"
 #include "tools/scene/carried.hpp"
 #include "tools/scene/daylight.hpp"
 #include "tools/scene/json_tree.hpp"
@@ -28,7 +29,7 @@ bool fromContext(const EspContext* context, EspResult result, std::string& error
 }
 
 bool compile(EspContext* context, LoadedGrammar& grammar, const std::string& text, std::string& error) {
-    const EspGrammarDef def{grammar.file.c_str(), text.data(), text.size()};
+    const EspGrammarDef def = esp::grammarDef(grammar.file.c_str(), text);
     if (!fromContext(context, espCompileGrammar(context, &def, &grammar.id), error)) return false;
     grammar.text = grammar.grows = text;
     grammar.warnings = espGrammarWarnings(context, grammar.id);
@@ -124,7 +125,7 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     if (!takeProject(request.file, error)) return false;
     out = Scene{};
     out.name = lastPart(asked.file);
-    out.ownLook = espDefaultLook();
+    out.ownLook = esp::defaults<EspLook>();
     out.grow = request.grow;
     const auto open = isTown(request.file) ? openTown : isDescribed(request.file) ? openDescription : openSurface;
     if (!open(context, request, out, error)) return false;
@@ -154,7 +155,7 @@ EspResult walkLayer(EspContext* context, EspSurface surface, const std::string& 
                     EspLayerDef& out) {
     uint32_t side = 0;
     if (EspResult asked = espReadLayer(context, surface, name.c_str(), nullptr, &side); asked != ESP_OK) return asked;
-    out = espDefaultLayerDef();
+    out = esp::defaults<EspLayerDef>();
     out.surface = surface;
     out.name = name.c_str();
     out.space = picture.width == side && picture.height == side ? ESP_LAYER_TEXELS : ESP_LAYER_WALK_UV;
@@ -167,7 +168,7 @@ EspResult walkLayer(EspContext* context, EspSurface surface, const std::string& 
 namespace {
 
 bool plantOne(EspContext* context, Scene& scene, Seed& seed, std::string& error) {
-    EspSeedDef def = espDefaultSeedDef();
+    EspSeedDef def = esp::defaults<EspSeedDef>();
     def.grammar = scene.grammars[seed.grammar].id;
     std::copy(seed.position.begin(), seed.position.end(), def.position);
     std::copy(seed.direction.begin(), seed.direction.end(), def.direction);
@@ -220,7 +221,7 @@ bool setText(EspContext* context, LoadedGrammar& grammar, const std::string& tex
     grammar.text = text;
     grammar.error.clear();
     grammar.warnings.clear();
-    const EspGrammarDef def{grammar.file.c_str(), text.data(), text.size()};
+    const EspGrammarDef def = esp::grammarDef(grammar.file.c_str(), text);
     if (!fromContext(context, espRecompileGrammar(context, grammar.id, &def), grammar.error)) return false;
     grammar.grows = text;
     grammar.warnings = espGrammarWarnings(context, grammar.id);

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "plugin_api/espalier.h"
+#include "plugin_api/espalier.hpp"
 #include "tools/scene/fields.hpp"
 #include "tools/scene/kept_file.hpp"
 #include "tools/scene/picture.hpp"
@@ -26,8 +26,8 @@ struct Request {
     std::string grammar;                                      // takes the place of the scene's first grammar
     std::optional<uint32_t> seed;  // the seeds' numbers are this, this + 1 ... instead of the scene's own
     uint32_t times = 1;  // that each seed is planted, with other numbers: to see how it goes with more of them
-    EspGrowDef grow = espDefaultGrowDef();  // but for `walk`, which the scene's file says
-    std::optional<EspWalkMode> walk;        // instead of that
+    EspGrowDef grow = esp::defaults<EspGrowDef>();  // but for `walk`, which the scene's file says
+    std::optional<EspWalkMode> walk;                // instead of that
     // Told before each part of a scene that may take long: what it is, and the share of all that is done, 0 to 1.
     std::function<void(const std::string& part, float share)> told = {};
 };
@@ -121,7 +121,7 @@ struct Scene {
     };
     std::vector<PlannedRoof> plannedRoofs;  // [house] as the town's file says
     std::string site;                       // file of what furnishes it; empty: nothing does
-    EspGrowDef grow = espDefaultGrowDef();
+    EspGrowDef grow = esp::defaults<EspGrowDef>();
     std::vector<std::string> layers;  // that grammars read; then those that are painted and that none reads any more
     std::vector<std::string> colourLayers;  // those of them that are colours (tools/scene/layers.hpp)
     std::vector<std::string> notes;         // what of the file couldn't be kept, a line each

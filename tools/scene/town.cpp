@@ -19,11 +19,11 @@ House houseNow(const EspContext* context, uint32_t index) {
     House house;
     house.index = index;
     EspHouseInfo info;
-    if (espHouseInfo(context, index, &info) != ESP_OK) return house;
+    EspHouseLook look;
+    if (espHouseInfo(context, index, &info) != ESP_OK || espHouseLook(context, index, &look) != ESP_OK) return house;
     house.shape = nameOf(info.shape);
     house.slope = info.slope;
     house.eaveHeight = info.eaveHeight - info.baseHeight;
-    const EspHouseLook& look = info.look;
     house.look = HouseLook{nameOf(look.covering), {}, look.overhang, nameOf(look.chimneys)};
     if (look.coloured) house.look->colour.assign(std::begin(look.colour), std::end(look.colour));
     std::vector<std::array<float, 2>> corners(info.cornerCount);
