@@ -9,7 +9,7 @@
 
 #include "runtime/emit/cell_lanes.hpp"
 #include "runtime/emit/emit_memory.hpp"
-#include "runtime/emit/native_bind.hpp"
+#include "runtime/host/bind.hpp"
 
 namespace espalier {
 namespace {

@@ -5,7 +5,7 @@
 #include "runtime/emit/bound_growth.hpp"
 #include "runtime/emit/cell_lanes.hpp"
 #include "runtime/emit/emit_memory.hpp"
-#include "runtime/emit/native_carry.hpp"
+#include "runtime/host/carry.hpp"
 
 namespace espalier {
 

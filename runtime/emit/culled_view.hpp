@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "runtime/emit/bound_growth.hpp"
-#include "runtime/emit/native_cull.hpp"
+#include "runtime/host/cull.hpp"
 
 namespace espalier {
 

@@ -18,9 +18,9 @@ struct EmitInputs {
     // Where things grow, more or less: space is divided there. What lies elsewhere costs more, no more than that.
     glm::vec3 low{-4}, high{4};
     // True: on a software device whose addresses are the process's own, native code binds growth if no recording that
-    // looks at what was bound is in flight (native_bind.hpp), culls what stands already when a view is recorded
-    // (native_cull.hpp), gathers what is to be written as triangles, and writes bark's (native_triangles.hpp). False:
-    // shaders do there too.
+    // looks at what was bound is in flight (runtime/host/bind.hpp), culls what stands already when a view is recorded
+    // (runtime/host/cull.hpp), gathers what is to be written as triangles, and writes bark's
+    // (runtime/host/triangles.hpp). False: shaders do there too.
     bool native = true;
 };
 

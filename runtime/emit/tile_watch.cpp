@@ -2,7 +2,7 @@
 // again.
 #include "runtime/emit/tile_watch.hpp"
 
-#include "shaders/emit/glsl_names.h"
+#include "runtime/host/tiles.hpp"
 
 namespace espalier {
 namespace {
@@ -10,16 +10,6 @@ namespace {
 uint32_t tilesAlong(const EmitView& view, uint32_t pixels) {
     return (pixels + view.tilePixels - 1) / view.tilePixels;
 }
-
-// What is around the kernel's text.
-struct TakeTiles {
-    const TakePush& push;
-#include "shaders/emit/take_tiles.h"
-
-    void all() {
-        takeRun(floatBitsToUint(push.taken.v[push.tiles]), 0, takePlaces(), 0);
-    }
-};
 
 }  // namespace
 
@@ -69,7 +59,7 @@ EmitView TileWatch::take(Commands& commands, uint32_t mostTiles, bool growthStan
     push.columns = tilesAlong(view, view.width);
     push.most = mostTiles;
     if (atOnce) {
-        TakeTiles{push}.all();
+        takeTilesNative(push);
         view.flags |= kTilesStand;
         return view;
     }

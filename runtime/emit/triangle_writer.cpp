@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "runtime/emit/native_triangles.hpp"
+#include "runtime/host/triangles.hpp"
 
 namespace espalier {
 namespace {

@@ -6,8 +6,8 @@
 #include <map>
 
 #include "runtime/expand/growth_plan.hpp"
-#include "runtime/expand/native_growth.hpp"
 #include "runtime/expand/seed_changes.hpp"
+#include "runtime/host/growth.hpp"
 
 namespace espalier {
 namespace {
@@ -58,7 +58,7 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     const bool sums = inputs.limits.leafDensityCap > 0 || inputs.limits.tangents == TangentMode::paper;
     std::vector<uint32_t> density(sums ? kDensityCells + 3 * size_t(a.status.nodes) : 0);
     env.density = {density.data()};
-    terminalsNative(env, inputs.limits, alone);
+    terminalsNative(env, alone);
     fitNative(env, alone);
     return a;
 }

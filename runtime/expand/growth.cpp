@@ -142,7 +142,7 @@ Result<Growth::Outcome> Growth::attemptNative(const GrowthInputs& inputs, const 
     outcome.marchMs = millisecondsOf(
         [&] { env.wave = marchNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_, true, inputs.watch); });
     if (stopped(inputs)) return stoppedFailure();
-    outcome.terminalsMs = millisecondsOf([&] { terminalsNative(env, inputs.limits, crew_, inputs.watch); });
+    outcome.terminalsMs = millisecondsOf([&] { terminalsNative(env, crew_, inputs.watch); });
     if (stopped(inputs)) return stoppedFailure();
     outcome.fitMs = millisecondsOf([&] { fitNative(env, crew_); });
     outcome.status = status_.mappedAs<GrowStatus>()[0];

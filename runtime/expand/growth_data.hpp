@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "runtime/core/growth_watch.hpp"
 #include "runtime/core/result.hpp"
 #include "runtime/expand/changes.hpp"
 #include "runtime/expand/frozen.hpp"
-#include "runtime/expand/growth_watch.hpp"
 #include "runtime/gpu/buffer.hpp"
 #include "shaders/shared/growth_records.h"
 #include "shaders/shared/rule_map.h"
@@ -38,7 +38,7 @@ struct GrowthInputs {
     SurfaceBuf surfaces{};  // indexed by surface instance
     uint32_t surfaceCount = 0;
     // True: on a software device whose addresses are the process's own, growth runs as native code on its cores
-    // (native_growth.hpp), with the same result. False: as shaders there too.
+    // (runtime/host/growth.hpp), with the same result. False: as shaders there too.
     bool native = true;
     LayerBuf layers{};  // surfaceCount * kMaxLayers
     std::span<const RuleMapRef> grammars;

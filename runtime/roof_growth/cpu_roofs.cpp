@@ -2,9 +2,9 @@
 // measured against. And how room for both is found.
 #include <algorithm>
 
-#include "runtime/core/jobs.hpp"
+#include "runtime/host/roofs.hpp"
 #include "runtime/roof_growth/roof_data.hpp"
-#include "shaders/shared/roof_expand.h"
+#include "shaders/shared/roof_tables.h"
 
 namespace espalier {
 
@@ -130,19 +130,13 @@ struct CpuRun {
     // The widest wave.
     uint32_t derive(RoofEnv env, unsigned threads) {
         uint32_t widest = 0;
+        Crew crew(threads);
         for (uint32_t w = 0; w <= kMaxRoofDepth && waves[w].count > 0; ++w) {
             widest = std::max(widest, waves[w].count);
             env.wave = w;
             env.shapes.v = scopes[w & 1].data();
             env.next.v = scopes[(w + 1) & 1].data();
-            parallelFor(
-                shapesToDerive(env), 256,
-                [&](size_t begin, size_t end) {
-                    RoofTally tally = emptyTally();
-                    for (size_t i = begin; i < end; ++i) deriveShape(env, uint32_t(i), tally);
-                    addTally(out.status, tally);
-                },
-                threads);
+            deriveRoofsNative(env, crew);
             out.waves = w + 1;
         }
         return widest;

@@ -375,7 +375,7 @@ FN NodeFinish finishStem(MACHINE_PARAM LEAVES_PARAM ExpandEnv env, IN(StemChunk)
 
 #ifndef __cplusplus
 // All of it. hash: the sum of its leaves' hashes is added. Native code does the same for some nodes at a time
-// (native_finish.hpp).
+// (runtime/host/finish.hpp).
 NodeFinish finishNode(ExpandEnv env, uint index, inout uvec2 hash) {
     StemNode s = {};
     s.index = index;

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "runtime/expand/wide_nodes.hpp"
+#include "runtime/host/wide_nodes.hpp"
 #include "shaders/shared/expand_terminals.h"
 
 using namespace espalier;

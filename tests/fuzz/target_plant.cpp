@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "runtime/core/hash.hpp"
-#include "runtime/emit/native_bind.hpp"
 #include "runtime/expand/frozen.hpp"
 #include "runtime/expand/growth_plan.hpp"
-#include "runtime/expand/native_growth.hpp"
+#include "runtime/host/bind.hpp"
+#include "runtime/host/growth.hpp"
 #include "tests/fuzz/promise.hpp"
 
 namespace espalier::fuzz {

@@ -44,7 +44,7 @@ TEST_CASE("the compiler makes vectors of loops over lanes") {
         return;
     }
     // And the check finds what it is for: a loop that may end early.
-    const std::string file = "runtime/expand/wide_nodes.cpp", end = "l.packedTint[i] = leaf.tint;\n";
+    const std::string file = "runtime/host/wide_nodes.cpp", end = "l.packedTint[i] = leaf.tint;\n";
     std::string text = readAll(file);
     const size_t at = text.find(end);
     REQUIRE(at != std::string::npos);

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "runtime/expand/wide_walk.hpp"
+#include "runtime/host/wide_walk.hpp"
 #include "tests/walk/judge.hpp"
 
 using namespace espalier;

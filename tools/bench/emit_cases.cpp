@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "runtime/emit/emit.hpp"
-#include "runtime/emit/native_triangles.hpp"
+#include "runtime/host/triangles.hpp"
 #include "shaders/shared/exact.h"
 #include "tools/bench/bark_loop.hpp"
 #include "tools/bench/bench.hpp"

@@ -1,6 +1,6 @@
 // Enters: instances of spans. Leaves: their rings of bark (bark_ring.h) and quads, in memory. A span's rings are made
 // side by side, several at once, then put into the order of vertices and streamed out.
-#include "runtime/emit/native_triangles.hpp"
+#include "runtime/host/triangles.hpp"
 
 #include <array>
 #ifdef __SSE2__

@@ -1,5 +1,5 @@
 // Enters: bound growth and its new numbers, by pointer. Leaves: what the carry_*.comp kernels would, in place.
-#include "runtime/emit/native_carry.hpp"
+#include "runtime/host/carry.hpp"
 
 #include <algorithm>
 #include <vector>

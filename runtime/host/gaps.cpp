@@ -1,7 +1,7 @@
 // Closing gaps in native code, in place. In: what is drawn, by pointer, with the gaps that regrowths have left. Out:
 // the same without gaps, links by the new numbers.
 #include "runtime/core/jobs.hpp"
-#include "runtime/expand/native_growth.hpp"
+#include "runtime/host/growth.hpp"
 
 namespace espalier {
 namespace {

@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "runtime/expand/native_growth.hpp"
-#include "runtime/expand/wide_nodes.hpp"
+#include "runtime/host/growth.hpp"
+#include "runtime/host/wide_nodes.hpp"
 #include "shaders/shared/expand_terminals.h"
 
 namespace espalier {

@@ -1,5 +1,5 @@
 // Enters: growth's records, and what was bound of them. Leaves: what the bind_*.comp kernels would, pass by pass.
-#include "runtime/emit/native_bind.hpp"
+#include "runtime/host/bind.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,9 +1,9 @@
 // In: growth's buffers by pointer. Out: the records that the kernels leave. Waves are taken in turn, items by whichever
 // thread is free; places are drawn by atomics as on a GPU, so records' order differs between runs of several threads.
-#include "runtime/expand/native_growth.hpp"
+#include "runtime/host/growth.hpp"
 
-#include "runtime/expand/native_finish.hpp"
-#include "runtime/expand/native_march.hpp"
+#include "runtime/host/finish.hpp"
+#include "runtime/host/march.hpp"
 #include "shaders/shared/expand_fit.h"
 
 namespace espalier {
@@ -40,15 +40,15 @@ uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Cre
     return march(env, queues, most, crew, wide, watch);
 }
 
-void terminalsNative(ExpandEnv env, const GrowthLimits& limits, Crew& crew, GrowthWatch* watch) {
+void terminalsNative(ExpandEnv env, Crew& crew, GrowthWatch* watch) {
     if (!complete(env)) return;
     const GrowStatus& s = env.status.v[0];
-    if (limits.tangents == TangentMode::paper)
+    if (joints(env))
         overRange(s.frozenBranches, s.branches, kBranchesAtOnce, crew, [&](size_t begin, size_t end) {
             for (size_t i = begin; i < end; ++i) sumJoint(env, uint32_t(i));
         });
     for (uint32_t phase : {kTerminalsCount, kTerminalsWrite}) {
-        if (phase == kTerminalsCount && limits.leafDensityCap <= 0) continue;
+        if (phase == kTerminalsCount && s.leafDensityCap <= 0) continue;
         env.phase = phase;
         overRange(s.frozenNodes, s.nodes, kNodesAtOnce, crew, [&](size_t begin, size_t end) {
             if (goesOn(watch, s.nodes)) finishNodes(env, begin, end);

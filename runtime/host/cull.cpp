@@ -1,6 +1,6 @@
 // Enters: bound growth in cells, and a view. Leaves: what of it is drawn, sorted by bucket. Cells go in pieces, each on
 // one core; the order of pieces and of what lies in them is the order of drawing.
-#include "runtime/emit/native_cull.hpp"
+#include "runtime/host/cull.hpp"
 
 #include <algorithm>
 

@@ -8,8 +8,8 @@
 #include <bit>
 
 #include "runtime/core/jobs.hpp"
-#include "runtime/expand/native_growth.hpp"
-#include "runtime/expand/wide_walk.hpp"
+#include "runtime/host/growth.hpp"
+#include "runtime/host/wide_walk.hpp"
 #include "shaders/shared/expand_grow.h"
 
 // All of a pass in one function: its state stays in registers, and pointers needn't be handed on.

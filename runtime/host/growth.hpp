@@ -8,8 +8,8 @@
 
 #include <array>
 
+#include "runtime/core/growth_watch.hpp"
 #include "runtime/core/jobs.hpp"
-#include "runtime/expand/growth_data.hpp"
 #include "shaders/shared/expand_env.h"
 
 namespace espalier {
@@ -27,8 +27,8 @@ uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Cre
                      GrowthWatch* watch = nullptr);
 
 // The passes after wave env.wave: terminals, fit and the structure's hash. Nothing, unless growth is complete.
-// env.density must be zero where limits ask for it. What `watch` stops isn't whole.
-void terminalsNative(ExpandEnv env, const GrowthLimits& limits, Crew& crew, GrowthWatch* watch = nullptr);
+// env.density must be zero where the status asks for it. What `watch` stops isn't whole.
+void terminalsNative(ExpandEnv env, Crew& crew, GrowthWatch* watch = nullptr);
 void fitNative(ExpandEnv env, Crew& crew);
 
 // A regrowth's: the links that are drawn are copied to env's, chunks found that are to be grown again, and the first

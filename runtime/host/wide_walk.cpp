@@ -1,6 +1,6 @@
 // In: walks, a lane each. Out: the same a stretch further. Loops over all lanes call text without branches, of which
 // the compiler makes vectors (CMakeLists.txt lets it); what reads the surface goes lane by lane between them.
-#include "runtime/expand/wide_walk.hpp"
+#include "runtime/host/wide_walk.hpp"
 
 #include <bit>
 #include <initializer_list>

@@ -1,13 +1,13 @@
 // The passes of a regrowth in their order (expand_again.h). In: growth's buffers by pointer, an edit's. Out: what the
 // kernels leave there.
-#include "runtime/expand/native_growth.hpp"
+#include "runtime/host/growth.hpp"
 
-// Text that ESPALIER_AGAIN changes must not be taken for native_growth.cpp's by the linker.
+// Text that ESPALIER_AGAIN changes must not be taken for growth.cpp's by the linker.
 #undef FN
 #define FN static inline
 #define ESPALIER_AGAIN
-#include "runtime/expand/native_finish.hpp"
-#include "runtime/expand/native_march.hpp"
+#include "runtime/host/finish.hpp"
+#include "runtime/host/march.hpp"
 #include "shaders/expand/again_apply.h"
 #include "shaders/expand/again_find.h"
 #include "shaders/expand/again_fit.h"

@@ -1,6 +1,6 @@
 // In: nodes with their neighbours, leaves as their terminals gave them, a lane each. Out: what records keep of them.
 // Loops over all lanes call text without branches, of which the compiler makes vectors (CMakeLists.txt lets it).
-#include "runtime/expand/wide_nodes.hpp"
+#include "runtime/host/wide_nodes.hpp"
 
 #include "shaders/shared/expand_terminals.h"
 
