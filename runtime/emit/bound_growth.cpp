@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runtime/emit/cell_lanes.hpp"
 #include "runtime/emit/emit_memory.hpp"
 #include "runtime/host/bind.hpp"
 
@@ -52,16 +51,17 @@ Result<BoundGrowth> BoundGrowth::create(Device& device, const Terminals& termina
     BoundGrowth out;
     out.device_ = &device;
     out.terminals_ = &terminals;
+    const DeviceTraits& traits = device.info().traits;
     Status programs = makeCompute(
         device, {{out.bindSpans_, "emit/bind_spans.comp", exactly()},
                  {out.bindLeaves_, "emit/bind_leaves.comp", exactly()},
                  {out.bindTouch_, "emit/bind_touch.comp"},
                  {out.bindStretches_, "emit/bind_stretches.comp", exactly()},
-                 {out.bindKeep_, "emit/bind_keep.comp", {.constants = {{kConstantLanes, cellLanes(device)}}}},
+                 {out.bindKeep_, "emit/bind_keep.comp", {.constants = {{kConstantLanes, traits.cellLanes}}}},
                  {out.bindCount_, "emit/bind_count.comp", exactly()},
                  {out.bindCells_, "emit/bind_cells.comp"},
                  {out.bindOrder_, "emit/bind_order.comp"},
-                 {out.bindSort_, "emit/bind_sort.comp", {.constants = {{kConstantLanes, sortLanes(device)}}}}});
+                 {out.bindSort_, "emit/bind_sort.comp", {.constants = {{kConstantLanes, traits.sortLanes}}}}});
     if (!programs) return programs.failure();
     if (Status s = allDone({makeRoom(device, out.cells_, "emit cells", (kAllCells + 1) * sizeof(EmitCell)),
                             makeRoom(device, out.bins_, "emit bins", kAllCells * kCellBins * 4ull)});
@@ -72,13 +72,13 @@ Result<BoundGrowth> BoundGrowth::create(Device& device, const Terminals& termina
     return out;
 }
 
-// Room for all that growth has room for, and for as much again on software devices.
+// Room for all that growth has room for, and for as much again where memory that isn't touched costs nothing.
 BoundGrowth::HeldRoom BoundGrowth::roomFor(const GrowthView& growth, uint32_t leaves) const {
     const DeviceInfo& info = device_->info();
     const uint64_t most = std::min<uint64_t>(info.maxBufferBytes, 16ull * info.limits.maxTexelBufferElements);
     const auto room = [&](const Buffer* records, uint64_t recordBytes, uint32_t count, uint64_t instanceBytes) {
         const uint64_t there = std::max<uint64_t>(records ? records->size() / recordBytes : 0, count);
-        return instanceRoom(there, instanceBytes, most, sharesMemory(*device_, cells_));
+        return instanceRoom(there, instanceBytes, most, info.traits.lazyMemory);
     };
     return {room(growth.nodeBuffer, sizeof(Node), growth.nodeCount, sizeof(SpanInstance)),
             std::min<uint64_t>(room(growth.leafBuffer, sizeof(Leaf), leaves, sizeof(LeafInstance)), kMostLeaves)};

@@ -3,7 +3,6 @@
 // on software devices; kernels copy it to other buffers, which have new room, too. Binding all anew would cost ten
 // times.
 #include "runtime/emit/bound_growth.hpp"
-#include "runtime/emit/cell_lanes.hpp"
 #include "runtime/emit/emit_memory.hpp"
 #include "runtime/host/carry.hpp"
 
@@ -19,7 +18,7 @@ Status BoundGrowth::makeCarrying(bool moved) {
     Carrying& c = carrying_[moved];
     if (c.cells) return Done{};
     const ProgramOptions options{
-        .constants = {{kConstantMoved, moved ? 1u : 0u}, {kConstantLanes, cellLanes(*device_)}}};
+        .constants = {{kConstantMoved, moved ? 1u : 0u}, {kConstantLanes, device_->info().traits.cellLanes}}};
     return makeCompute(*device_, {{c.spans, "emit/carry_spans.comp", options},
                                   {c.leaves, "emit/carry_leaves.comp", options},
                                   {c.cells, "emit/carry_cells.comp", options}});
@@ -38,7 +37,7 @@ Status BoundGrowth::carryByKernels(Commands& commands, const CarryPush& push, bo
         pass.dispatchItems(programs.spans, push.nodeCount, push, {held_.spanTexels});
         pass.dispatchItems(programs.leaves, push.leafCount, push, {held_.leafTexels});
     }
-    pass.dispatchItems(programs.cells, kAllCells * cellLanes(*device_), push);
+    pass.dispatchItems(programs.cells, kAllCells * device_->info().traits.cellLanes, push);
     pass.barrier(Use::compute, Use::compute | Use::transfer);
     return Done{};
 }

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "runtime/emit/cell_lanes.hpp"
-
 namespace espalier {
 
 Status BoundGrowth::bindByKernels(Commands& commands, const TileWatch& watch, const BindInputs& given) {
@@ -27,6 +25,7 @@ Status BoundGrowth::bindByKernels(Commands& commands, const TileWatch& watch, co
 }
 
 void BoundGrowth::dispatchBinding(Pass& pass, const TileWatch& watch, const BindInputs& given, const Buffer& in) {
+    const DeviceTraits& traits = device_->info().traits;
     const bool partly = given.partly != 0;
     const uint32_t nodes = given.nodeCount, leaves = given.leafCount;
     const Buffer& table = terminals_->tableBuffer();
@@ -46,7 +45,7 @@ void BoundGrowth::dispatchBinding(Pass& pass, const TileWatch& watch, const Bind
     pass.dispatch(bindLeaves_, groupsFor(leaves), {}, {table, held_.spanTexels, watch.record(), in});
     pass.barrier(Use::compute, Use::compute);
     if (partly) {
-        pass.dispatchItems(bindKeep_, kAllCells * cellLanes(*device_), {}, {in});
+        pass.dispatchItems(bindKeep_, kAllCells * traits.cellLanes, {}, {in});
         pass.barrier(Use::compute, Use::compute);
     }
     const std::array<uint32_t, 3> groups = groupsFor(std::min(nodes + leaves, 4095u * 64));
@@ -56,7 +55,7 @@ void BoundGrowth::dispatchBinding(Pass& pass, const TileWatch& watch, const Bind
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(bindOrder_, groups, {}, {in});
     pass.barrier(Use::compute, Use::compute);
-    pass.dispatchItems(bindSort_, kAllCells * sortLanes(*device_), {}, {held_.spanTexels, held_.leafTexels, in});
+    pass.dispatchItems(bindSort_, kAllCells * traits.sortLanes, {}, {held_.spanTexels, held_.leafTexels, in});
     pass.barrier(Use::compute, Use::compute | Use::vertex);
 }
 

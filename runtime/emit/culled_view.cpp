@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "runtime/emit/cell_lanes.hpp"
 #include "runtime/emit/emit_memory.hpp"
 
 namespace espalier {
@@ -15,7 +14,8 @@ namespace {
 const char* scanShader(const Device& device) {
     const VkPhysicalDeviceLimits& limits = device.info().limits;
     const uint32_t most = std::min(limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0]);
-    return !device.info().cpu && most >= kScanShares * kMaxBuckets ? "emit/scan_wide.comp" : "emit/scan.comp";
+    return device.info().traits.wideGroups && most >= kScanShares * kMaxBuckets ? "emit/scan_wide.comp"
+                                                                                : "emit/scan.comp";
 }
 
 // Wherever their tiles lie: `scene` tells whether these say the same.
@@ -30,7 +30,7 @@ Result<CulledView> CulledView::create(Device& device, const Terminals& terminals
     CulledView out;
     out.device_ = &device;
     out.terminals_ = &terminals;
-    const ProgramOptions lanes{.constants = {{kConstantLanes, cellLanes(device)}}};
+    const ProgramOptions lanes{.constants = {{kConstantLanes, device.info().traits.cellLanes}}};
     Status programs = makeCompute(device, {{out.cullCells_, "emit/cull_cells.comp"},
                                            {out.listBlocks_, "emit/list_blocks.comp"},
                                            {out.listItems_, "emit/list_items.comp", lanes},
@@ -95,7 +95,7 @@ Status CulledView::record(Commands& commands, const BoundGrowth& bound, const Em
     pass.barrier(Use::compute, Use::compute);
     pass.dispatch(listBlocks_, {1, 1, 1}, push);
     pass.barrier(Use::compute, Use::compute | Use::indirect);
-    pass.dispatchItems(listItems_, kAllCells * cellLanes(*device_), push);
+    pass.dispatchItems(listItems_, kAllCells * device_->info().traits.cellLanes, push);
     pass.barrier(Use::compute, Use::compute);
     const uint64_t groups = offsetof(EmitState, groups);
     pass.dispatchIndirect(classifySpans_, state_, groups, push, {table, shown, bound.spanTexels()});

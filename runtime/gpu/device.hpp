@@ -8,6 +8,7 @@
 
 #include "runtime/core/log.hpp"
 #include "runtime/core/result.hpp"
+#include "runtime/gpu/device_traits.hpp"
 #include "runtime/gpu/functions.hpp"
 #include "runtime/gpu/memory.hpp"
 
@@ -50,7 +51,8 @@ struct DeviceInfo {
     std::string name;
     std::string driver;
     uint64_t identity = 0;  // of device, driver and the width of its subgroups: another one where any of them differs
-    bool cpu = false;       // a software device
+    bool cpu = false;       // a software device; see `traits` for what follows
+    DeviceTraits traits;
     uint32_t subgroupSize = 0;
     uint32_t queueFamily = 0;
     float timestampNanoseconds = 0;  // 0: no timestamps

@@ -288,6 +288,7 @@ struct DeviceSetup {
         info.name = all.properties.deviceName;
         info.driver = std::string(v12.driverName) + " " + v12.driverInfo;
         info.cpu = all.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+        info.traits = traitsOf(info.cpu);
         info.subgroupSize = v11.subgroupSize;
         info.identity = hashValues<uint8_t>(v11.deviceUUID, hashValues<uint8_t>(v11.driverUUID));
         info.identity = hashValues<uint8_t>(all.properties.pipelineCacheUUID, info.identity);

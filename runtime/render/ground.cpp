@@ -180,7 +180,7 @@ Result<Ground> Ground::create(Device& device, VkFormat color, VkFormat depth, ui
     ground.skyline_ = std::move(*skyline);
     for (const bool quick : {false, true}) {
         SamplerDesc sampler{.name = "ground noise", .blendMips = !quick};
-        sampler.anisotropy = device.info().cpu ? 1.0f : 8.0f;
+        sampler.anisotropy = device.info().traits.anisotropy;
         if (Status made = assign(ground.samplers_[quick], Sampler::create(device, sampler)); !made)
             return made.failure();
         sampler.name = "site map";

@@ -48,7 +48,7 @@ Result<Models> Models::create(Device& device) {
     if (Status made = assign(models.flat_, makeNormals(device, "flat normal", 1, 1, flat)); !made)
         return made.failure();
     Result<Sampler> sampler =
-        Sampler::create(device, {.name = "model textures", .anisotropy = device.info().cpu ? 1.0f : 8.0f});
+        Sampler::create(device, {.name = "model textures", .anisotropy = device.info().traits.anisotropy});
     if (!sampler) return sampler.failure();
     models.sampler_ = std::move(*sampler);
     Result<Sampler> quick = Sampler::create(device, {.name = "model textures, quick", .blendMips = false});

@@ -41,7 +41,7 @@ Result<Props> Props::create(Device& device, TerminalData models, VkFormat color,
     props.terminals_ = std::move(*terminals);
     props.measure();
     Result<Sampler> sampler =
-        Sampler::create(device, {.name = "prop textures", .anisotropy = device.info().cpu ? 1.0f : 8.0f});
+        Sampler::create(device, {.name = "prop textures", .anisotropy = device.info().traits.anisotropy});
     if (!sampler) return sampler.failure();
     props.sampler_ = std::move(*sampler);
     Result<Sampler> quick = Sampler::create(device, {.name = "prop textures, quick", .blendMips = false});

@@ -180,7 +180,7 @@ Status Renderer::cullGrowth(Commands& commands, const DrawInputs& inputs, const 
     const uint64_t models = now_.hosted ? 0 : models_.revision();
     if (Status s = depthTiles_.find(commands, targets_.depth, pointSampler_, models, view); !s) return s;
     thinOut(view, inputs.look.leafPixels);
-    if (inputs.look.quick && device_.info().cpu) view.flags |= kStretches;
+    if (inputs.look.quick && device_.info().traits.quickPictures) view.flags |= kStretches;
     view.scene = sceneOf(inputs);
     if (isQuick(now_.shading) && !now_.hosted) depthTiles_.lookBack(device_, models, view);
     if (now_.roofed)

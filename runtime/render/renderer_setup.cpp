@@ -133,7 +133,7 @@ Status Renderer::makeRareScene(ScenePrograms& programs, Shading shading) const {
 }
 
 Status Renderer::pickScene(ViewMode shown, bool quick) {
-    const bool explained = shown != ViewMode::shaded, cheap = quick && device_.info().cpu;
+    const bool explained = shown != ViewMode::shaded, cheap = quick && device_.info().traits.quickPictures;
     now_.plain = !explained || shown == ViewMode::layer;
     if (shown == ViewMode::overdraw)
         now_.shading = Shading::counting;
@@ -161,8 +161,7 @@ Result<const Program*> Renderer::resolveProgram(VkFormat format) {
 }
 
 Status Renderer::setUp(TerminalData data) {
-    // Four samples make a frame three times as dear on a CPU; there edges are smoothed when all is drawn.
-    targets_.samples = device_.info().cpu ? 1 : 4;
+    targets_.samples = device_.info().traits.samples;
     if (Status made = assign(terminals_, Terminals::create(device_, std::move(data))); !made) return made.failure();
     const TerminalTable& table = terminals_.table();
     for (uint32_t v = 0; v < table.variants.size(); ++v) {
@@ -184,7 +183,7 @@ Status Renderer::setUp(TerminalData data) {
     Result<Image> map = Image::create(device_, shadow);
     if (!map) return map.failure();
     shadowMap_ = std::move(*map);
-    const float anisotropy = device_.info().cpu ? 1.0f : 8.0f;
+    const DeviceTraits& traits = device_.info().traits;
     const struct {
         Sampler& sampler;
         SamplerDesc desc;
@@ -194,7 +193,7 @@ Status Renderer::setUp(TerminalData data) {
           .address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
           .mips = false,
           .shadowCompare = true}},
-        {textureSampler_, {.name = "terminal textures", .anisotropy = anisotropy}},
+        {textureSampler_, {.name = "terminal textures", .anisotropy = traits.anisotropy}},
         {quickSampler_, {.name = "terminal textures, quick", .blendMips = false}},
         {pointSampler_,
          {.name = "point",

@@ -12,11 +12,12 @@
 namespace espalier {
 
 // full: as settled pictures are. explaining: any view but the shaded one and overdraw. quick, quickExplaining: the same
-// for a moving picture on a software device, with fewer samples of shadows and textures. counting: of overdraw, where
-// fragments add up.
+// for a moving picture where a device has those (DeviceTraits::quickPictures), with fewer samples of shadows and
+// textures. counting: of overdraw, where fragments add up.
 enum class Shading : uint32_t { full = 0, explaining = 1, quick = 2, counting = 3, quickExplaining = 4 };
 constexpr uint32_t kShadings = 5;
 
+// A quality of pictures.
 inline bool isQuick(Shading shading) {
     return shading == Shading::quick || shading == Shading::quickExplaining;
 }
@@ -26,7 +27,7 @@ inline Shading plainOf(Shading shading) {
 }
 // Others are drawn with fewer pixels at full quality at most, and need no programs for it.
 inline bool isAskedOf(const Device& device, Shading shading) {
-    return device.info().cpu || !isQuick(shading);
+    return device.info().traits.quickPictures || !isQuick(shading);
 }
 
 inline std::vector<SpecConstant> constantsOf(Shading shading, bool rooted = false, bool rest = false) {

@@ -200,7 +200,7 @@ Status RoofGrowth::uploadPlot(Commands& commands, const Set& set, uint32_t house
 
 bool RoofGrowth::mayFetch(const RoofInputs& inputs, const Set& set) const {
     const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
-    bool may = inputs.fetch && device_.info().cpu;
+    bool may = inputs.fetch && device_.info().traits.fetchesTexels;
     for (const Buffer* b : {&atoms_.buffer, &pieces_.buffer, &scopes_[0], &scopes_[1], &set.regions.buffer,
                             &set.parts.buffer, &set.planes.buffer})
         may = may && b->size() >= 16 && b->size() <= most;
