@@ -7,6 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "runtime/core/result.hpp"
+
 namespace espalier {
 
 // Who waits for growth that takes long: is told now and then how far it is, and may give it up. begin(), stopped() and
@@ -47,6 +49,10 @@ class GrowthWatch {
 // Where nobody may watch, growth goes on.
 inline bool goesOn(GrowthWatch* watch, uint64_t nodes) {
     return !watch || watch->look(nodes);
+}
+
+inline Failure stoppedFailure() {
+    return Failure("growth", "growth was stopped; what was grown before stands");
 }
 
 }  // namespace espalier

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "runtime/emit/emit_memory.hpp"
-#include "runtime/host/bind.hpp"
+#include "runtime/run/emission.hpp"
 
 namespace espalier {
 namespace {
@@ -241,7 +241,7 @@ Status BoundGrowth::bind(Commands& commands, const EmitInputs& inputs, const Til
     }
     given.since = before.number;
     // What stands then may be culled by native code at once.
-    const bool native = inputs.native && sharesMemory(*device_, cells_) && device_->finished(usedBy_);
+    const bool native = runsAtOnce(*device_, inputs.native, cells_) && device_->finished(usedBy_);
     if (native) {
         bindNative(given, terminals_->kernelTable(), watch.watched());
     } else if (Status s = bindByKernels(commands, watch, given); !s) {

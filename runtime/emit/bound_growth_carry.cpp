@@ -4,7 +4,7 @@
 // times.
 #include "runtime/emit/bound_growth.hpp"
 #include "runtime/emit/emit_memory.hpp"
-#include "runtime/host/carry.hpp"
+#include "runtime/run/emission.hpp"
 
 namespace espalier {
 
@@ -46,7 +46,7 @@ Status BoundGrowth::carry(Commands& commands, const EmitInputs& inputs, uint32_t
     const GrowthView& growth = inputs.growth;
     const bool moved = source.number < growth.renewed;
     const bool fits = held_.fits(growth.nodeCount, leaves);
-    const bool native = fits && inputs.native && sharesMemory(*device_, cells_) && device_->finished(usedBy_);
+    const bool native = fits && runsAtOnce(*device_, inputs.native, cells_) && device_->finished(usedBy_);
     const bool stays = fits && (!moved || native);
     Held other;
     if (!stays) {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "runtime/emit/bound_growth.hpp"
-#include "runtime/host/cull.hpp"
+#include "runtime/run/emission.hpp"
 
 namespace espalier {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "runtime/emit/emit_memory.hpp"
+#include "runtime/run/at_once.hpp"
 
 namespace espalier {
 namespace {
@@ -25,7 +25,7 @@ Result<Emit> Emit::create(Device& device, const Terminals& terminals) {
 }
 
 bool Emit::mayBeNative(const EmitInputs& inputs) const {
-    return inputs.native && sharesMemory(*device_, view_.state());
+    return runsAtOnce(*device_, inputs.native, view_.state());
 }
 
 Status Emit::bind(Commands& commands, const EmitInputs& inputs) {

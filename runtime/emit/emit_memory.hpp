@@ -15,11 +15,6 @@ constexpr uint64_t instanceRoom(uint64_t count, uint64_t instanceBytes, uint64_t
     return spare ? std::max(count, std::min(2 * count, mostBytes / instanceBytes)) : count;
 }
 
-// Native code reads and writes what kernels do. buffer: any of the device's own.
-inline bool sharesMemory(const Device& device, const Buffer& buffer) {
-    return device.info().cpu && uintptr_t(buffer.mapped()) == buffer.address();
-}
-
 // A new buffer in place of what was there. texels: null, or the view of four words a texel that goes with it.
 inline Status makeRoom(Device& device, Buffer& buffer, std::string_view name, uint64_t bytes,
                        TexelView* texels = nullptr) {

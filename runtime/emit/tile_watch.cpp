@@ -2,7 +2,7 @@
 // again.
 #include "runtime/emit/tile_watch.hpp"
 
-#include "runtime/host/tiles.hpp"
+#include "runtime/run/emission.hpp"
 
 namespace espalier {
 namespace {

@@ -4,8 +4,6 @@
 
 #include <chrono>
 
-#include "runtime/host/triangles.hpp"
-
 namespace espalier {
 namespace {
 

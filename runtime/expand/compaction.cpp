@@ -7,14 +7,14 @@
 
 namespace espalier {
 
-// Native code closes gaps before room runs out: an edit that finds none is done twice, and fresh memory costs far more
+// In place gaps are closed before room runs out: an edit that finds none is done twice, and fresh memory costs far more
 // than closing does. Kernels copy all, which is the better the later.
 bool Growth::gappy(const GrowthInputs& inputs) const {
-    const bool native = runsNative(inputs);
+    const bool inPlace = atOnce(inputs);
     const auto wide = [&](uint32_t taken, uint32_t live, uint64_t room) {
         const uint32_t gaps = taken - std::min(taken, live);
-        const bool scarce = native && room - std::min<uint64_t>(room, taken) < live / 16;
-        return gaps > taken / (native ? 4 : 3) || (scarce && gaps > live / 32);
+        const bool scarce = inPlace && room - std::min<uint64_t>(room, taken) < live / 16;
+        return gaps > taken / (inPlace ? 4 : 3) || (scarce && gaps > live / 32);
     };
     const Plants& plants = plants_.drawn();
     return wide(view_.nodeCount, stats_.nodes, capacityOf<Node>(plants.nodes)) ||
@@ -35,9 +35,20 @@ Status Growth::compact(const GrowthInputs& inputs) {
         return ok;
     if (Status ok = ensure(leavesWent_, "growth where leaves went", capacityOf<Leaf>(*view_.leafBuffer) * 4ull); !ok)
         return ok;
-    Status closed = runsNative(inputs) ? closeGaps() : copyTogether();
+    const bool inPlace = atOnce(inputs);
+    if (Status room = inPlace ? Status(Done{}) : makeCopyRoom(); !room) return room;
+    Result<GrowStatus> moved = closeGaps(inPlace);
+    if (!moved) return moved.failure();
+    if (Status right = checkMoved(moved->nodes, moved->leaves); !right) return right;
+    if (!inPlace) {
+        plants_.swap();
+        links_.swap();
+        chained_ = false;
+    }
+    showMoved(moved->nodes, moved->leaves);
+    if (inPlace) (void)enlarge();  // where there isn't memory, what room there is may do
     stats_.reservedBytes = reserved();
-    return closed;
+    return Done{};
 }
 
 // As many nodes and leaves stay when gaps are closed as there were. Else a driver's kernels have counted wrong, and all
@@ -64,32 +75,6 @@ void Growth::showMoved(uint32_t nodes, uint32_t leaves) {
     view_.moved = moved;
     // What it says of earlier growths is of no account any more.
     if (touched_ && !touchedIsNew_) view_.touched = &touched_;
-}
-
-Status Growth::closeGaps() {
-    Result<Commands> commands = Commands::begin(device_, "before gaps are closed");
-    if (!commands) return commands.failure();
-    if (Status finished = commands->finish(); !finished) return finished;
-    GapClosing closing;
-    closing.nodes = view_.nodes.v;
-    closing.leaves = view_.leaves.v;
-    closing.chunks = view_.chunks.v;
-    if (chained_) {
-        closing.firstLeaves = addressOf<UintBuf>(firstLeaves_).v;
-        closing.nextLeaves = addressOf<UintBuf>(nextLeaves_).v;
-    }
-    closing.nodesWent = addressOf<UintBuf>(nodesWent_).v;
-    closing.leavesWent = addressOf<UintBuf>(leavesWent_).v;
-    closing.chunkCount = view_.chunkCount;
-    closing.nodeCount = view_.nodeCount;
-    closing.leafCount = view_.leafCount;
-    whole_ = false;  // as in regrow()
-    closeGapsNative(closing, crew_);
-    if (Status right = checkMoved(closing.nodeCount, closing.leafCount); !right) return right;
-    whole_ = true;
-    showMoved(closing.nodeCount, closing.leafCount);
-    (void)enlarge();  // where there isn't memory, what room there is may do
-    return Done{};
 }
 
 // For all that there is, and half as much again.
@@ -176,58 +161,47 @@ Status Growth::makeCopyRoom() {
          ensure(links.chunks, "growth chunks",
                 std::max<uint64_t>(linksNow.chunks.size(), room_.chunks * uint64_t(sizeof(Chunk)))),
          ensure(links.branches, "growth branches",
-                std::max<uint64_t>(linksNow.branches.size(), room_.branches * uint64_t(sizeof(BranchRecord)))),
-         kernels_.make({GrowthKernel::compactPlaces, GrowthKernel::compactNodes, GrowthKernel::compactLeaves},
-                       tablesByAddress_)});
+                std::max<uint64_t>(linksNow.branches.size(), room_.branches * uint64_t(sizeof(BranchRecord))))});
 }
 
-CompactEnv Growth::compactEnvironment() const {
+CompactEnv Growth::compactEnvironment(bool inPlace) const {
     CompactEnv env{};
     env.nodes = view_.nodes;
     env.leaves = view_.leaves;
     env.chunks = view_.chunks;
-    env.toNodes = addressOf<NodeBuf>(plants_.spare().nodes);
-    env.toLeaves = addressOf<LeafBuf>(plants_.spare().leaves);
-    env.toChunks = addressOf<ChunkBuf>(links_.spare().chunks);
+    env.toNodes = inPlace ? env.nodes : addressOf<NodeBuf>(plants_.spare().nodes);
+    env.toLeaves = inPlace ? env.leaves : addressOf<LeafBuf>(plants_.spare().leaves);
+    env.toChunks = inPlace ? env.chunks : addressOf<ChunkBuf>(links_.spare().chunks);
     env.nodesWent = addressOf<UintBuf>(nodesWent_);
     env.leavesWent = addressOf<UintBuf>(leavesWent_);
     env.status = addressOf<GrowStatusBuf>(status_);
+    if (chained_) {
+        env.firstLeaves = addressOf<UintBuf>(firstLeaves_);
+        env.nextLeaves = addressOf<UintBuf>(nextLeaves_);
+    }
     env.chunkCount = view_.chunkCount;
     env.leafCount = view_.leafCount;
+    env.nodeCount = view_.nodeCount;
     return env;
 }
 
-Status Growth::copyTogether() {
-    if (Status room = makeCopyRoom(); !room) return room;
+// Returns counts of nodes and leaves. In place nothing fails on the way: see regrow().
+Result<GrowStatus> Growth::closeGaps(bool inPlace) {
     const Links &links = links_.spare(), &linksNow = links_.drawn();
-    Result<Commands> commands = Commands::begin(device_, "close gaps");
-    if (!commands) return commands.failure();
-    if (Status up = commands->upload(status_, std::vector<GrowStatus>(1)); !up) return up;
-    commands->copy(linksNow.chunks, links.chunks, view_.chunkCount * sizeof(Chunk));
-    commands->copy(linksNow.branches, links.branches, view_.branchCount * sizeof(BranchRecord));
-    commands->fill(nodesWent_, kNoIndex);
-    commands->barrier(Use::transfer, Use::compute);
-    {
-        Pass pass(*commands, "expand compact");
-        const CompactEnv env = compactEnvironment();
-        const std::array<uint32_t, 3> groups = spreadGroups();
-        pass.dispatch(kernel(GrowthKernel::compactPlaces), groups, env);
-        pass.barrier(Use::compute, Use::compute);
-        pass.dispatch(kernel(GrowthKernel::compactNodes), groups, env);
-        pass.dispatch(kernel(GrowthKernel::compactLeaves), groups, env);
-        pass.barrier(Use::compute, Use::transfer | Use::compute);
+    Result<Run> run = Run::begin(runner_, "close gaps", inPlace);
+    if (!run) return run.failure();
+    if (Status up = run->send().upload(status_, std::vector<GrowStatus>(1)); !up) return up.failure();
+    if (!inPlace) {
+        run->send().copy(linksNow.chunks, links.chunks, view_.chunkCount * sizeof(Chunk));
+        run->send().copy(linksNow.branches, links.branches, view_.branchCount * sizeof(BranchRecord));
+        run->send().fill(nodesWent_, kNoIndex);
     }
-    commands->copy(status_, readback_, sizeof(GrowStatus));
-    commands->barrier(Use::transfer, Use::host);
-    if (Status finished = commands->finish(); !finished) return finished;
-    GrowStatus status;
-    std::memcpy(&status, readback_.mapped(), sizeof status);
-    if (Status right = checkMoved(status.nodes, status.leaves); !right) return right;
-    plants_.swap();
-    links_.swap();
-    chained_ = false;
-    showMoved(status.nodes, status.leaves);
-    return Done{};
+    const CompactEnv env = compactEnvironment(inPlace);
+    run->readBack(status_, sizeof(GrowStatus));
+    if (Status closed = run->add(inPlace ? closingStages(env) : compactionStages(shaders(), env)); !closed)
+        return closed.failure();
+    if (Status finished = run->finish(); !finished) return finished.failure();
+    return *run->got<GrowStatus>(0);
 }
 
 }  // namespace espalier

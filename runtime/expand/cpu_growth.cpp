@@ -6,8 +6,9 @@
 #include <map>
 
 #include "runtime/expand/growth_plan.hpp"
+#include "runtime/expand/growth_stages.hpp"
 #include "runtime/expand/seed_changes.hpp"
-#include "runtime/host/growth.hpp"
+#include "runtime/run/host_runner.hpp"
 
 namespace espalier {
 namespace {
@@ -28,8 +29,7 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     std::vector<uint32_t> pruned = keyWords(inputs.pruned);
     a.status.pruned = {pruned.data()};
     a.status.prunedCount = uint32_t(inputs.pruned.size());
-    a.waves.assign(inputs.limits.maxDepth + 2u, Wave{});
-    a.waves[0] = firstWave(uint32_t(inputs.seeds.size()), room);
+    a.waves = wavesOfSeeds(uint32_t(inputs.seeds.size()), inputs.limits, room);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     uint64_t words = 0;
     std::vector<GrammarTables> heads = placeTables(inputs, words);
@@ -47,19 +47,20 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     env.leaves = {a.out.leaves.data()};
     env.status = {&a.status};
     env.waves = {a.waves.data()};
-    packTablesNative(env, uint32_t(grammars.size()));
     env.itemCapacity = room.items;
     env.phase = lastWave(cut);
     std::vector<WorkItem> even = itemsOfSeeds(inputs.seeds), odd(room.items);
     even.resize(room.items);
-    Crew alone(1);
-    env.wave = marchNative(env, {even.data(), odd.data()}, uint32_t(a.waves.size()) - 1, alone, false);
-    a.waves.resize(env.wave + 1);
     const bool sums = inputs.limits.leafDensityCap > 0 || inputs.limits.tangents == TangentMode::paper;
-    std::vector<uint32_t> density(sums ? kDensityCells + 3 * size_t(a.status.nodes) : 0);
+    std::vector<uint32_t> density(sums ? kDensityCells + 3 * size_t(room.nodes) : 0);
     env.density = {density.data()};
-    terminalsNative(env, alone);
-    fitNative(env, alone);
+    HostRunner plainly(1, true);
+    StageList packing = tableStages({}, env, uint32_t(grammars.size()));
+    StageList growth =
+        growthStages({}, env, {{{even.data()}, {odd.data()}}}, inputs.limits, 0, uint32_t(a.waves.size()) - 1);
+    plainly.run(packing);
+    plainly.run(growth);
+    a.waves.resize(wavesOf(a.waves) + 1);
     return a;
 }
 

@@ -5,19 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstring>
 #include <optional>
-#include <thread>
 
 #include "runtime/expand/growth_data.hpp"
-#include "runtime/expand/growth_kernels.hpp"
 #include "runtime/expand/growth_plan.hpp"
+#include "runtime/expand/growth_stages.hpp"
 #include "runtime/expand/seed_changes.hpp"
-#include "runtime/gpu/buffer.hpp"
-#include "runtime/gpu/commands.hpp"
-#include "runtime/host/growth.hpp"
-#include "shaders/expand/compact.h"
+#include "runtime/machine/room.hpp"
+#include "runtime/machine/run_waves.hpp"
 #include "shaders/shared/expand_again.h"
 #include "shaders/shared/expand_tables.h"
 
@@ -26,14 +22,6 @@ namespace espalier {
 // Bytes of a buffer that is read as texels to its end.
 inline uint64_t wholeTexels(uint64_t bytes) {
     return (bytes + 15) / 16 * 16;
-}
-
-// Wall time of work().
-template <class Work>
-double millisecondsOf(const Work& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 template <class T>
@@ -60,21 +48,11 @@ class Growth {
     void trim();
 
   private:
-    Growth(Device& device, const GrowthRoom& room) : device_(device), kernels_(device), least_(room), room_(room) {}
-    Status setUp();
+    Growth(Device& device, const GrowthRoom& room)
+        : device_(device), runner_(device, "growth"), least_(room), room_(room) {}
 
-    // What is drawn is in one of two sets. A full growth writes the other one of both; a regrowth adds to the nodes and
-    // leaves that are drawn, and writes the other links.
-    template <class Set>
-    struct DoubleBuffered {
-        Set sets[2];
-        uint32_t front = 0;
-        Set& drawn() { return sets[front]; }
-        Set& spare() { return sets[1 - front]; }
-        const Set& drawn() const { return sets[front]; }
-        const Set& spare() const { return sets[1 - front]; }
-        void swap() { front = 1 - front; }
-    };
+    // A full growth writes the other set of both; a regrowth adds to the nodes and leaves that are drawn, and writes
+    // the other links.
     struct Plants {
         Buffer nodes, leaves;
     };
@@ -94,29 +72,28 @@ class Growth {
 
     // Both kinds: growth_set_up.cpp.
     Status ensureChains(const Plants& plants);
-    Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
+    Status ensure(Buffer& buffer, const char* name, uint64_t bytes) { return ensureRoom(device_, buffer, name, bytes); }
     Status makeTables(const GrowthInputs& inputs);
-    Status makeKernels(const GrowthInputs& inputs);
+    void noticeFeatures(const GrowthInputs& inputs);
     Status makeQueues(const GrowthInputs& inputs);
     Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen);
     Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen, bool spare);  // with room for edits
-    // pack: by a kernel; else it is left to native code.
-    Status uploadTables(Commands& commands, const GrowthInputs& inputs, bool pack);
+    // Their heads; tableStages() packs them.
+    Status uploadTables(Commands& commands, const GrowthInputs& inputs);
     // Counters of an attempt, and the pruned branches that they lead to.
     Status uploadStatus(Commands& commands, const GrowthInputs& inputs, GrowStatus status);
     ExpandEnv environment(const GrowthInputs& inputs, const Plants& plants, const Links& links);
-    // Waves [first, last) of `march`.
-    void recordWaves(Pass& pass, const Program& march, const ExpandEnv& env, uint32_t first, uint32_t last);
-    Outcome readOutcome(uint32_t last);
+    GrowthShaders shaders() const;
+    // Asks for, and takes, what tells of a run up to wave `last`.
+    void readBack(Run& run, uint32_t last) const;
+    void take(const Run& run, uint32_t last, Outcome& outcome);
     static Origin originOf(const GrowthInputs& inputs);
     // What lies in front is drawn from now on. all: nodes aren't where they were.
     void show(const GrowStatus& status, bool all);
     void lookAtFront();  // its buffers, which hold the same as those before, or what show() tells
     uint64_t reserved() const;
-    // Whether growth runs as native code.
-    bool runsNative(const GrowthInputs& inputs) const {
-        return inputs.native && device_.info().cpu && status_ && uintptr_t(status_.mapped()) == status_.address();
-    }
+    // Whether stages run at once, and may move records in place.
+    bool atOnce(const GrowthInputs& inputs) const { return runner_.atOnce(inputs.native, status_); }
     // ExpandEnv::density; frozen: nodes that stand before those for which there is room.
     uint64_t densityWords(const GrowthLimits& limits, uint64_t frozen) const {
         if (limits.tangents == TangentMode::paper) return kDensityCells + 3 * (room_.nodes + frozen);
@@ -126,13 +103,10 @@ class Growth {
     uint64_t laneBytes() const {
         const uint64_t march = laneGroupsOf(room_.items, kItemsPerGroupAgain) * uint64_t(kLaneWords);
         const uint64_t nodes =
-            std::max(laneGroupsOf(room_.nodes, kNodesPerGroup), spreadGroups()[0]) * uint64_t(kSlotWords);
+            std::max(laneGroupsOf(room_.nodes, kNodesPerGroup), groupsThroughChunks()) * uint64_t(kSlotWords);
         return std::max(march, nodes) * kExpandGroup * 4;
     }
-    const Program& kernel(GrowthKernel kernel) const { return kernels_.get(kernel, tablesByAddress_); }
-    static GrowthKernel marchOf(const GrowthLimits& limits) {
-        return limits.walk == WalkMode::paper ? GrowthKernel::marchPaper : GrowthKernel::march;
-    }
+    uint32_t groupsThroughChunks() const { return device_.info().traits.groupsThrough(view_.chunkCount); }
     // The packed tables for kernels' uniform binding: something of its size when they are read by address.
     const Buffer& uniformTables() const { return tablesByAddress_ ? noTables_ : tables_; }
 
@@ -140,11 +114,7 @@ class Growth {
     Status growAll(const GrowthInputs& inputs);
     Status growWhole(const GrowthInputs& inputs);
     Result<Outcome> attempt(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
-    Result<Outcome> attemptShaders(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
-    Result<Outcome> attemptNative(const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
     Status uploadInputs(Commands& commands, const GrowthInputs& inputs, const FrozenSum& frozen, const GrowthCut& cut);
-    Status record(Commands& commands, const ExpandEnv& env, uint32_t first, uint32_t last, const GrowthLimits& limits);
-    void recordTerminals(Commands& commands, ExpandEnv env, const GrowthLimits& limits);
     void publish(const GrowthInputs& inputs, const FrozenSum& frozen, const Outcome& outcome, Origin&& origin);
 
     // What an edit concerns: regrowth.cpp.
@@ -158,23 +128,14 @@ class Growth {
     };
     AgainBytes againBytes(const Links& from) const;
     Status makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords);
-    Status uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
-                       std::span<const uint32_t> edits);
+    Status sendEdit(Run& run, const GrowthInputs& inputs, const SeedChanges& seeds, std::span<const uint32_t> edits);
+    bool tablesStay(const GrowthInputs& inputs) const;
     // edits: editWords(inputs, seeds).
     Result<AgainState> findDirty(const GrowthInputs& inputs, const SeedChanges& seeds, std::span<const uint32_t> edits,
                                  ExpandEnv env);
     Result<Regrown> growAgain(const GrowthInputs& inputs, const ExpandEnv& env, Outcome& outcome, AgainState& state);
-    Status growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
-    void growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state);
-    void recordAgain(Commands& commands, ExpandEnv env);
     void publishAgain(const GrowthInputs& inputs, const Outcome& outcome, const AgainState& state, Origin&& origin);
-    ItemQueues itemQueues() const { return {addressOf<WorkItemBuf>(items_[0]).v, addressOf<WorkItemBuf>(items_[1]).v}; }
-    // Groups of a pass whose kernels go through chunks or lists of them by themselves: few, since each costs, but none
-    // with more than some 512 chunks to go through, see kMaxTrips.
-    std::array<uint32_t, 3> spreadGroups() const {
-        const uint32_t threads = std::thread::hardware_concurrency();
-        return {device_.info().cpu ? std::max({16u, std::min(8 * threads, 64u), view_.chunkCount / 512}) : 1024u, 1, 1};
-    }
+    ItemQueues itemQueues() const { return {addressOf<WorkItemBuf>(items_[0]), addressOf<WorkItemBuf>(items_[1])}; }
 
     // Frozen plants that GrowthChanges::frozen names, among what is drawn as if they had been there before: put_in.cpp.
     // False: there is no room.
@@ -186,7 +147,6 @@ class Growth {
     bool gappyLinks() const;
     Status makePlantRoom(Plants& plants);
     Status compact(const GrowthInputs& inputs);
-    Status closeGaps();
     Status enlarge();
     struct Copied {
         const Buffer &from, &to;
@@ -196,22 +156,22 @@ class Growth {
     Status movePlants();
     Status moveLinks();
     Status shrink();
-    Status copyTogether();
     Status makeCopyRoom();
-    CompactEnv compactEnvironment() const;
+    CompactEnv compactEnvironment(bool inPlace) const;
+    Result<GrowStatus> closeGaps(bool inPlace);
     Status checkMoved(uint32_t nodes, uint32_t leaves);
     void showMoved(uint32_t nodes, uint32_t leaves);
 
     Device& device_;
-    GrowthKernels kernels_;
-    Crew crew_;                     // of native code; its threads sleep between growths
+    Runner runner_;
     const GrowthRoom least_;        // to begin with
     GrowthRoom room_;               // of a full growth, beside frozen plants
     uint32_t likelyWaves_ = 24;     // recorded in the first submission
+    uint32_t features_ = 0;         // kFeature...: what grammars have ever used, so that kernels settle
     bool tablesByAddress_ = false;  // else from a uniform buffer, which holds kUniformTableWords
     DoubleBuffered<Plants> plants_;
     DoubleBuffered<Links> links_;
-    Buffer items_[2], lanes_, status_, pruned_, waves_, grammars_, tables_, noTables_, density_, readback_;
+    Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, density_;
     Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_, touched_, nodesWent_, leavesWent_;
     bool touchedIsNew_ = false;  // and holds nothing yet
     bool chained_ = false;       // leaves on the nodes that are drawn are chained

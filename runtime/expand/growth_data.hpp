@@ -38,7 +38,7 @@ struct GrowthInputs {
     SurfaceBuf surfaces{};  // indexed by surface instance
     uint32_t surfaceCount = 0;
     // True: on a software device whose addresses are the process's own, growth runs as native code on its cores
-    // (runtime/host/growth.hpp), with the same result. False: as shaders there too.
+    // (runtime/host), with the same result. False: as shaders there too.
     bool native = true;
     LayerBuf layers{};  // surfaceCount * kMaxLayers
     std::span<const RuleMapRef> grammars;

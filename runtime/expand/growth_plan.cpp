@@ -166,12 +166,9 @@ uint32_t lastWave(const GrowthCut& cut) {
     return cut.key > 0 || cut.wave == 0 ? cut.wave : cut.wave - 1;
 }
 
-Wave firstWave(uint32_t seeds, const GrowthRoom& room) {
-    Wave wave{};
-    wave.count = std::min(seeds, room.items);
-    wave.groups[0] = laneGroupsOf(wave.count, kItemsPerGroup);
-    wave.groups[1] = wave.groups[2] = 1;
-    return wave;
+std::vector<Wave> wavesOfSeeds(uint32_t seeds, const GrowthLimits& limits, const GrowthRoom& room) {
+    const uint32_t items = std::min(seeds, room.items);
+    return wavesBefore(limits.maxDepth + 2ull, items, laneGroupsOf(items, kItemsPerGroup));
 }
 
 Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const GrowthLimits& limits, GrowthRoom& room,
@@ -223,10 +220,6 @@ Failure limitFailure(Verdict verdict, const GrowthLimits& limits) {
 
 bool stopped(const GrowthInputs& inputs) {
     return inputs.watch && inputs.watch->stopped();
-}
-
-Failure stoppedFailure() {
-    return Failure("growth", "growth was stopped; what was grown before stands");
 }
 
 void countBytes(GrowthStats& stats) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "runtime/expand/growth_data.hpp"
+#include "runtime/machine/waves.hpp"
 #include "shaders/shared/expand_env.h"
 #include "shaders/shared/expand_rows.h"
 
@@ -28,7 +29,7 @@ GrowthCut noCut(const GrowthLimits& limits);
 // Status and waves at the start of an attempt.
 GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const GrowthCut& cut);
 uint32_t lastWave(const GrowthCut& cut);  // ExpandEnv::phase of the march
-Wave firstWave(uint32_t seeds, const GrowthRoom& room);
+std::vector<Wave> wavesOfSeeds(uint32_t seeds, const GrowthLimits& limits, const GrowthRoom& room);
 
 enum class Verdict { complete, tooSmall, cut, impossible, tooManyLeaves };
 // Judges an attempt. waves: those that ran and the next. tooSmall: `room` was and has been enlarged; cut: a limit was
@@ -44,7 +45,6 @@ bool everyShapeGrew(const GrowStatus& status, std::span<const Wave> waves);
 // Why limits let nothing grow; verdict: one of the last two.
 Failure limitFailure(Verdict verdict, const GrowthLimits& limits);
 bool stopped(const GrowthInputs& inputs);  // by who watches
-Failure stoppedFailure();
 
 // Takes out what edits have left as gaps and renumbers the rest.
 void compactRecords(GrowthRecords& records);

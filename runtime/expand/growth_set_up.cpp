@@ -8,15 +8,6 @@
 
 namespace espalier {
 
-Status Growth::setUp() {
-    return kernels_.make({GrowthKernel::tables, GrowthKernel::branches}, tablesByAddress_);
-}
-
-Status Growth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
-    if (buffer.size() < bytes) buffer = {};  // before the new one, for which there may be no room beside it
-    return makeAtLeast(device_, buffer, name, bytes, use);
-}
-
 // Room for the chains of leaves on nodes. What gets new room has to be chained anew.
 Status Growth::ensureChains(const Plants& plants) {
     const uint64_t nodes = capacityOf<Node>(plants.nodes) * 4ull, leaves = capacityOf<Leaf>(plants.leaves) * 4ull;
@@ -36,25 +27,25 @@ Status Growth::makeTables(const GrowthInputs& inputs) {
     tablesStand_ = tablesStand_ && tables_.size() >= tables && grammars_.size() >= grammars;
     Status made = ensure(tables_, "growth tables", tables);
     if (made) made = ensure(noTables_, "growth no tables", tablesByAddress_ ? kUniformBytes : 0);
+    noticeFeatures(inputs);
     return made ? ensure(grammars_, "growth grammars", grammars) : made;
 }
 
-// Kernels for what these grammars ask of them.
-Status Growth::makeKernels(const GrowthInputs& inputs) {
-    uint32_t features = kFeatureKnown;
+// Kernels are made for what grammars ask of them.
+void Growth::noticeFeatures(const GrowthInputs& inputs) {
+    uint32_t features = features_ | kFeatureKnown;
     for (const RuleMapRef& map : inputs.grammars)
         features |= map.features == 0 ? kRuleFeatures : map.features & kRuleFeatures;
     if (inputs.limits.leafDensityCap > 0) features |= kFeatureDensity;
     if (inputs.limits.tangents == TangentMode::paper) features |= kFeatureJoints;
-    kernels_.use(features);
-    if (Status made = ensure(lanes_, "growth lanes", laneBytes()); !made) return made;
-    return kernels_.make({marchOf(inputs.limits), GrowthKernel::terminals, GrowthKernel::fit}, tablesByAddress_);
+    if (features != features_) runner_.dropPrograms(kConstantFeatures);
+    features_ = features;
 }
 
 // Edits add nodes and leaves before gaps are closed. Where memory that isn't touched costs nothing, there is room for
 // these at once, if there is any: what outgrows its room is copied whole.
 Status Growth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen) {
-    if (inputs.native && device_.info().cpu) {
+    if (inputs.native && device_.info().traits.lazyMemory) {
         if (Status made = makeRoom(inputs, frozen, true); made) return made;
         plants_.spare() = {};
     }
@@ -86,8 +77,7 @@ Status Growth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen,
     chained_ = false;  // the attempt writes its own
     if (Status ok = ensureChains(plants); !ok) return ok;
     if (Status tables = makeTables(inputs); !tables) return tables;
-    if (Status queues = makeQueues(inputs); !queues || runsNative(inputs)) return queues;
-    return makeKernels(inputs);
+    return makeQueues(inputs);
 }
 
 Status Growth::makeQueues(const GrowthInputs& inputs) {
@@ -95,9 +85,7 @@ Status Growth::makeQueues(const GrowthInputs& inputs) {
     const uint64_t items = uint64_t(room_.items) * sizeof(WorkItem);
     return allDone({ensure(items_[0], "growth items even", items), ensure(items_[1], "growth items odd", items),
                     ensure(status_, "growth status", sizeof(GrowStatus)),
-                    ensure(waves_, "growth waves", waves * sizeof(Wave)),
-                    ensure(readback_, "growth readback", sizeof(GrowStatus) + waves * sizeof(Wave) + sizeof(AgainState),
-                           BufferUse::readback)});
+                    ensure(waves_, "growth waves", waves * sizeof(Wave))});
 }
 
 ExpandEnv Growth::environment(const GrowthInputs& inputs, const Plants& plants, const Links& links) {
@@ -117,22 +105,15 @@ ExpandEnv Growth::environment(const GrowthInputs& inputs, const Plants& plants, 
     return env;
 }
 
-Status Growth::uploadTables(Commands& commands, const GrowthInputs& inputs, bool pack) {
+GrowthShaders Growth::shaders() const {
+    return {&waves_, &status_, &uniformTables(), tablesByAddress_, features_, laneBytes(), groupsThroughChunks()};
+}
+
+Status Growth::uploadTables(Commands& commands, const GrowthInputs& inputs) {
     tablesStand_ = false;
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     uint64_t words = 0;
-    if (Status s =
-            allDone({commands.upload(grammars_, grammars), commands.upload(tables_, placeTables(inputs, words))});
-        !s)
-        return s;
-    commands.barrier(Use::transfer, Use::compute | Use::indirect);
-    if (grammars.empty() || !pack) return Done{};
-    Pass pass(commands, "expand tables");
-    stats_.dispatches += 1;
-    pass.dispatch(kernel(GrowthKernel::tables), {uint32_t(grammars.size()), 1, 1},
-                  environment(inputs, plants_.drawn(), links_.drawn()));
-    pass.barrier(Use::compute, Use::compute);
-    return Done{};
+    return allDone({commands.upload(grammars_, grammars), commands.upload(tables_, placeTables(inputs, words))});
 }
 
 Status Growth::uploadStatus(Commands& commands, const GrowthInputs& inputs, GrowStatus status) {
@@ -148,12 +129,20 @@ Status Growth::uploadStatus(Commands& commands, const GrowthInputs& inputs, Grow
     return commands.upload(status_, std::vector<GrowStatus>{status});
 }
 
-Growth::Outcome Growth::readOutcome(uint32_t last) {
-    Outcome outcome;
-    std::memcpy(&outcome.status, readback_.mapped(), sizeof(GrowStatus));
-    outcome.waves.resize(last + 1);
-    std::memcpy(outcome.waves.data(), readback_.mapped() + sizeof(GrowStatus), (last + 1) * sizeof(Wave));
-    return outcome;
+void Growth::readBack(Run& run, uint32_t last) const {
+    run.readBack(status_, sizeof(GrowStatus));
+    run.readBack(waves_, (last + 1) * sizeof(Wave));
+}
+
+void Growth::take(const Run& run, uint32_t last, Outcome& outcome) {
+    outcome.status = *run.got<GrowStatus>(0);
+    const std::span<const Wave> waves(run.got<Wave>(1), last + 1);
+    outcome.waves.assign(waves.begin(), waves.begin() + std::min(wavesOf(waves), last) + 1);
+    outcome.marchMs += run.milliseconds("expand march");
+    outcome.terminalsMs += run.milliseconds("expand terminals");
+    outcome.fitMs += run.milliseconds("expand fit");
+    stats_.native = run.atOnce();
+    stats_.dispatches += run.dispatches();
 }
 
 void Growth::lookAtFront() {
@@ -182,12 +171,12 @@ void Growth::show(const GrowStatus& status, bool all) {
 }
 
 uint64_t Growth::reserved() const {
-    uint64_t bytes = 0;
+    uint64_t bytes = runner_.reserved();
     for (const Plants& p : plants_.sets) bytes += p.nodes.size() + p.leaves.size();
     for (const Links& l : links_.sets) bytes += l.chunks.size() + l.branches.size();
-    for (const Buffer* b : {&items_[0], &items_[1],    &lanes_,      &status_,  &pruned_,    &waves_,     &grammars_,
-                            &tables_,   &noTables_,    &density_,    &again_,   &marks_,     &lists_,     &edits_,
-                            &results_,  &firstLeaves_, &nextLeaves_, &touched_, &nodesWent_, &leavesWent_})
+    for (const Buffer* b :
+         {&items_[0], &items_[1], &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_, &density_, &again_,
+          &marks_, &lists_, &edits_, &results_, &firstLeaves_, &nextLeaves_, &touched_, &nodesWent_, &leavesWent_})
         bytes += b->size();
     return bytes;
 }
@@ -196,16 +185,10 @@ Result<GrowthRecords> Growth::read() {
     Plants& plants = plants_.drawn();
     Links& links = links_.drawn();
     GrowthRecords to;
-    auto fetch = [&](auto& values, const Buffer& buffer, uint32_t count) -> Status {
-        if (count == 0) return Done{};
-        auto got = readVector<typename std::decay_t<decltype(values)>::value_type>(device_, buffer, 0, count);
-        if (!got) return got.failure();
-        values = std::move(*got);
-        return Done{};
-    };
-    if (Status s = allDone(
-            {fetch(to.nodes, plants.nodes, view_.nodeCount), fetch(to.chunks, links.chunks, view_.chunkCount),
-             fetch(to.branches, links.branches, view_.branchCount), fetch(to.leaves, plants.leaves, view_.leafCount)});
+    if (Status s = allDone({readRecords(device_, plants.nodes, view_.nodeCount, to.nodes),
+                            readRecords(device_, links.chunks, view_.chunkCount, to.chunks),
+                            readRecords(device_, links.branches, view_.branchCount, to.branches),
+                            readRecords(device_, plants.leaves, view_.leafCount, to.leaves)});
         !s)
         return s.failure();
     compactRecords(to);
@@ -214,14 +197,11 @@ Result<GrowthRecords> Growth::read() {
 
 // What every edit uses stays as large as edits of what stands ask for it.
 void Growth::trim() {
-    const auto fit = [](uint32_t& room, uint32_t needed, uint32_t least) {
-        room = std::min<uint64_t>(room, std::max<uint64_t>(needed + needed / 2ull, least));
-    };
-    fit(room_.chunks, view_.chunkCount, least_.chunks);
-    fit(room_.nodes, view_.nodeCount, least_.nodes);
-    fit(room_.branches, view_.branchCount, least_.branches);
-    fit(room_.leaves, view_.leafCount, least_.leaves);
-    fit(room_.items, widest_, least_.items);
+    shrinkRoom(room_.chunks, view_.chunkCount, least_.chunks);
+    shrinkRoom(room_.nodes, view_.nodeCount, least_.nodes);
+    shrinkRoom(room_.branches, view_.branchCount, least_.branches);
+    shrinkRoom(room_.leaves, view_.leafCount, least_.leaves);
+    shrinkRoom(room_.items, widest_, least_.items);
     (void)shrink();  // where there isn't memory even for less, all stays where it is
     const Plants& plants = plants_.drawn();
     const Links& links = links_.drawn();
@@ -231,7 +211,6 @@ void Growth::trim() {
         uint64_t bytes;
     } rows[] = {{&items_[0], room_.items * sizeof(WorkItem)},
                 {&items_[1], room_.items * sizeof(WorkItem)},
-                {&lanes_, lanes_ ? laneBytes() : 0},
                 {&links_.spare().chunks, again.chunks},
                 {&links_.spare().branches, again.branches},
                 {&marks_, again.marks},
@@ -245,6 +224,7 @@ void Growth::trim() {
                 {&leavesWent_, view_.moved.leaves ? leavesWent_.size() : 0}};
     for (const auto& row : rows)
         if (row.buffer->size() > row.bytes) *row.buffer = {};
+    runner_.trim(laneBytes());
     chained_ = chained_ && firstLeaves_ && nextLeaves_;
     stats_.reservedBytes = reserved();
 }
@@ -261,10 +241,7 @@ Growth::Origin Growth::originOf(const GrowthInputs& inputs) {
 }
 
 Result<std::unique_ptr<Growth>> Growth::create(Device& device, const GrowthRoom& room) {
-    std::unique_ptr<Growth> growth(new Growth(device, room));
-    Status ready = growth->setUp();
-    if (!ready) return ready.failure();
-    return growth;
+    return std::unique_ptr<Growth>(new Growth(device, room));
 }
 
 }  // namespace espalier

@@ -4,8 +4,8 @@
 // them, and publishes, unless limits or room turn out to be exceeded: then it is done again with more room, or all is
 // grown anew.
 #include <algorithm>
+#include <iterator>
 
-#include "runtime/core/check.hpp"
 #include "runtime/expand/growth.hpp"
 
 namespace espalier {
@@ -66,24 +66,18 @@ Status Growth::makeAgainRoom(const GrowthInputs& inputs, uint64_t editWords) {
     for (const auto& row : rows)
         if (Status ok = ensure(*row.buffer, row.name, (row.bytes + 7) / 8 * 8); !ok) return ok;
     if (Status tables = makeTables(inputs); !tables) return tables;
-    if (Status queues = makeQueues(inputs); !queues || runsNative(inputs)) return queues;
-    if (Status kernels = makeKernels(inputs); !kernels) return kernels;
-    using enum GrowthKernel;
-    return kernels_.make({find, start, marchAgain, settle, work, terminalsAgain, apply, thickness, fitAgain},
-                         tablesByAddress_);
+    return makeQueues(inputs);
 }
 
-// Copies the links, unless native code does as it looks at them, and uploads counters, edits and the seeds that are
-// planted anew as the first wave.
-Status Growth::uploadAgain(Commands& commands, const GrowthInputs& inputs, const SeedChanges& seeds,
-                           std::span<const uint32_t> edits) {
+// Links, counters, the edit and the seeds that are planted anew as the first wave.
+Status Growth::sendEdit(Run& run, const GrowthInputs& inputs, const SeedChanges& seeds,
+                        std::span<const uint32_t> edits) {
     const Links& from = links_.drawn();
     const Links& to = links_.spare();
     const Plants& plants = plants_.drawn();
-    if (!runsNative(inputs)) {
-        commands.copy(from.chunks, to.chunks, view_.chunkCount * sizeof(Chunk));
-        commands.copy(from.branches, to.branches, view_.branchCount * sizeof(BranchRecord));
-    }
+    run.sendToKernels(from.chunks, to.chunks, view_.chunkCount * sizeof(Chunk));
+    run.sendToKernels(from.branches, to.branches, view_.branchCount * sizeof(BranchRecord));
+    Commands& commands = run.send();
     commands.fill(marks_, 0);
     if (!chained_) commands.fill(firstLeaves_, kNoIndex);
     if (touchedIsNew_) commands.fill(touched_, 0);
@@ -127,134 +121,69 @@ Status Growth::uploadAgain(Commands& commands, const GrowthInputs& inputs, const
 
     std::vector<WorkItem> all = itemsOfSeeds(inputs.seeds), items;
     for (uint32_t index : seeds.planted) items.push_back(all[index]);
-    std::vector<Wave> waves(inputs.limits.maxDepth + 2u, Wave{0, {0, 1, 1}, 0, 0, 0, 0});
-    waves[0].count = waves[0].announced = uint32_t(items.size());
-    waves[0].groups[0] = laneGroupsOf(waves[0].count, kItemsPerGroupAgain);
-    if (Status sent = allDone({uploadStatus(commands, inputs, s), commands.upload(again_, state),
-                               commands.upload(edits_, std::as_bytes(edits)), commands.upload(waves_, waves),
-                               commands.upload(items_[0], items)});
-        !sent)
-        return sent;
-    // Packed tables change with parameters, grammars and where their words lie.
+    const uint32_t first = uint32_t(items.size());
+    std::vector<Wave> waves =
+        wavesBefore(inputs.limits.maxDepth + 2ull, first, laneGroupsOf(first, kItemsPerGroupAgain));
+    waves[0].announced = first;
+    return allDone({uploadStatus(commands, inputs, s), commands.upload(again_, state),
+                    commands.upload(edits_, std::as_bytes(edits)), commands.upload(waves_, waves),
+                    commands.upload(items_[0], items)});
+}
+
+// Packed tables change with parameters, grammars and where their words lie.
+bool Growth::tablesStay(const GrowthInputs& inputs) const {
     const std::vector<RuleMapRef>& maps = origin_.maps;
     const std::vector<float>& widths = origin_.widths;
-    const bool same = tablesStand_ && inputs.changes->uses.empty() && inputs.changes->grammars.empty() &&
-                      inputs.changes->extrudes.empty() && inputs.grammars.size() == maps.size() &&
-                      inputs.widths.size() == widths.size() &&
-                      std::memcmp(inputs.grammars.data(), maps.data(), maps.size() * sizeof(RuleMapRef)) == 0 &&
-                      std::equal(widths.begin(), widths.end(), inputs.widths.begin());
-    if (!same) return uploadTables(commands, inputs, !runsNative(inputs));
-    commands.barrier(Use::transfer, Use::compute | Use::indirect);
-    return Done{};
+    return tablesStand_ && inputs.changes->uses.empty() && inputs.changes->grammars.empty() &&
+           inputs.changes->extrudes.empty() && inputs.grammars.size() == maps.size() &&
+           inputs.widths.size() == widths.size() &&
+           std::memcmp(inputs.grammars.data(), maps.data(), maps.size() * sizeof(RuleMapRef)) == 0 &&
+           std::equal(widths.begin(), widths.end(), inputs.widths.begin());
 }
 
 Result<AgainState> Growth::findDirty(const GrowthInputs& inputs, const SeedChanges& seeds,
                                      std::span<const uint32_t> edits, ExpandEnv env) {
-    Result<Commands> commands = Commands::begin(device_, "find what changed");
-    if (!commands) return commands.failure();
-    if (Status ok = uploadAgain(*commands, inputs, seeds, edits); !ok) return ok.failure();
+    Result<Run> run = Run::begin(runner_, "find what changed", atOnce(inputs));
+    if (!run) return run.failure();
+    if (Status sent = sendEdit(*run, inputs, seeds, edits); !sent) return sent.failure();
+    StageList stages;
+    if (!tablesStay(inputs)) {
+        if (Status sent = uploadTables(run->send(), inputs); !sent) return sent.failure();
+        stages = tableStages(shaders(), env, uint32_t(inputs.grammars.size()));
+    }
     env.items = addressOf<WorkItemBuf>(items_[0]);
-    if (runsNative(inputs)) {
-        if (Status finished = commands->finish(); !finished) return finished.failure();
-        packTablesNative(env, uint32_t(inputs.grammars.size()));
-        findNative(env, crew_);
-        return again_.mappedAs<AgainState>()[0];
-    }
-    {
-        Pass pass(*commands, "expand find");
-        stats_.dispatches += 2;
-        pass.dispatch(kernel(GrowthKernel::find), spreadGroups(), env);
-        pass.barrier(Use::compute, Use::compute);
-        pass.dispatch(kernel(GrowthKernel::start), spreadGroups(), env);
-        pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
-    }
-    commands->copy(again_, readback_, sizeof(AgainState));
-    commands->barrier(Use::transfer, Use::host);
-    if (Status finished = commands->finish(); !finished) return finished.failure();
-    AgainState state;
-    std::memcpy(&state, readback_.mapped(), sizeof state);
-    return state;
-}
-
-// Everything after the march; does nothing while waves are left, or where it can't be published.
-void Growth::recordAgain(Commands& commands, ExpandEnv env) {
-    const auto groups = spreadGroups();
-    stats_.dispatches += 6;
-    {
-        Pass pass(commands, "expand terminals");
-        pass.dispatch(kernel(GrowthKernel::settle), groups, env);
-        pass.barrier(Use::compute, Use::compute);
-        pass.dispatch(kernel(GrowthKernel::work), groups, env);
-        pass.barrier(Use::compute, Use::compute);
-        env.phase = kTerminalsAgain;
-        pass.dispatch(kernel(GrowthKernel::terminalsAgain), groups, env, {uniformTables(), lanes_});
-        pass.barrier(Use::compute, Use::compute);
-    }
-    Pass pass(commands, "expand fit");
-    pass.dispatch(kernel(GrowthKernel::apply), groups, env);
-    pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(kernel(GrowthKernel::thickness), groups, env);
-    pass.barrier(Use::compute, Use::compute);
-    pass.dispatch(kernel(GrowthKernel::fitAgain), groups, env);
-    pass.barrier(Use::compute, Use::transfer | Use::compute | Use::indirect);
-}
-
-void Growth::growAgainNative(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
-    env.phase = lastWave(noCut(inputs.limits));
-    outcome.marchMs = millisecondsOf(
-        [&] { env.wave = marchAgainNative(env, itemQueues(), inputs.limits.maxDepth + 1, crew_, inputs.watch); });
-    // From here on what is drawn is changed: nothing stops that.
-    if (!stopped(inputs)) outcome.terminalsMs = millisecondsOf([&] { finishAgainNative(env, crew_); });
-    outcome.status = status_.mappedAs<GrowStatus>()[0];
-    outcome.waves.assign(env.waves.v, env.waves.v + env.wave + 1);
-    state = again_.mappedAs<AgainState>()[0];
-}
-
-Status Growth::growAgainShaders(const GrowthInputs& inputs, ExpandEnv env, Outcome& outcome, AgainState& state) {
-    const uint32_t most = inputs.limits.maxDepth + 1;
-    const uint64_t stateAt = sizeof(GrowStatus) + (inputs.limits.maxDepth + 2ull) * sizeof(Wave);
-    uint32_t first = 0;
-    uint32_t batch = std::min(likelyWaves_, most);
-    while (true) {
-        const uint32_t last = std::min(first + batch, most);
-        Result<Commands> commands = Commands::begin(device_, "grow again");
-        if (!commands) return commands.failure();
-        env.phase = lastWave(noCut(inputs.limits));
-        {
-            Pass pass(*commands, "expand march");
-            recordWaves(pass, kernel(GrowthKernel::marchAgain), env, first, last);
-        }
-        env.wave = last;
-        recordAgain(*commands, env);
-        commands->copy(status_, readback_, sizeof(GrowStatus));
-        commands->copy(waves_, readback_, (last + 1) * sizeof(Wave), 0, sizeof(GrowStatus));
-        commands->copy(again_, readback_, sizeof(AgainState), 0, stateAt);
-        commands->barrier(Use::transfer, Use::host);
-        if (Status finished = commands->finish(); !finished) return finished;
-        device_.collect();
-        Outcome read = readOutcome(last);
-        outcome.status = read.status;
-        outcome.waves = std::move(read.waves);
-        outcome.marchMs += device_.milliseconds("expand march");
-        outcome.terminalsMs += device_.milliseconds("expand terminals");
-        outcome.fitMs += device_.milliseconds("expand fit");
-        std::memcpy(&state, readback_.mapped() + stateAt, sizeof state);
-        if (outcome.waves[last].count == 0 || last == most || outcome.status.items > 0) return Done{};
-        if (!goesOn(inputs.watch, outcome.status.nodes)) return stoppedFailure();
-        first = last;
-        batch *= 2;
-    }
+    std::ranges::move(findStages(shaders(), env), std::back_inserter(stages));
+    run->readBack(again_, sizeof(AgainState));
+    if (Status added = run->add(std::move(stages)); !added) return added.failure();
+    if (Status finished = run->finish(); !finished) return finished.failure();
+    stats_.dispatches += run->dispatches();
+    return *run->got<AgainState>(0);
 }
 
 // Publishes, unless there is too little room or too much to grow.
 Result<Growth::Regrown> Growth::growAgain(const GrowthInputs& inputs, const ExpandEnv& env, Outcome& outcome,
                                           AgainState& state) {
-    if (runsNative(inputs)) {
-        growAgainNative(inputs, env, outcome, state);
-    } else if (Status grown = growAgainShaders(inputs, env, outcome, state); !grown) {
-        return grown.failure();
-    }
-    if (stopped(inputs)) return stoppedFailure();
+    ExpandEnv waves = env;
+    waves.phase = lastWave(noCut(inputs.limits));
+    const auto add = [&](Run& run, uint32_t first, uint32_t last) -> Status {
+        StageList stages = regrowthStages(shaders(), waves, itemQueues(), first, last);
+        readBack(run, last);
+        run.readBack(again_, sizeof(AgainState));
+        if (Status ready = run.prepare(stages); !ready) return ready;
+        whole_ = false;  // what fails from here on may leave nodes that are drawn changed in part: then all grows anew
+        return run.add(std::move(stages), inputs.watch);
+    };
+    const auto waitsStill = [&](const Run& run, uint32_t last) -> Result<bool> {
+        take(run, last, outcome);
+        state = *run.got<AgainState>(2);
+        if (outcome.waves.back().count == 0 || outcome.status.items > 0) return false;
+        if (!goesOn(inputs.watch, outcome.status.nodes)) return stoppedFailure();
+        return true;
+    };
+    Status grown =
+        runWaves(runner_, "grow again", atOnce(inputs), likelyWaves_, inputs.limits.maxDepth + 1, add, waitsStill);
+    whole_ = whole_ || grown || stopped(inputs);  // which is heeded before any is changed
+    if (!grown) return grown.failure();
     const GrowStatus& s = outcome.status;
     const bool fits = s.chunks <= s.chunkCapacity && s.nodes <= s.nodeCapacity && s.branches <= s.branchCapacity &&
                       s.leaves <= s.leafCapacity && s.items <= room_.items;
@@ -294,8 +223,7 @@ void Growth::publishAgain(const GrowthInputs& inputs, const Outcome& outcome, co
     stats_.marchMs = outcome.marchMs;
     stats_.terminalsMs = outcome.terminalsMs;
     stats_.fitMs = outcome.fitMs;
-    auto empty = std::find_if(outcome.waves.begin(), outcome.waves.end(), [](const Wave& w) { return w.count == 0; });
-    stats_.waves = uint32_t(empty - outcome.waves.begin());
+    stats_.waves = wavesOf(outcome.waves);
     stats_.overflow = stats_.enlarged = 0;
     stats_.reservedBytes = reserved();
     stats_.expansions += 1;
@@ -327,9 +255,7 @@ Result<Growth::Regrown> Growth::regrow(const GrowthInputs& inputs, const SeedCha
     }
     Outcome outcome;
     AgainState state{};
-    whole_ = false;  // what fails may leave nodes that are drawn changed in part: then all grows anew
     Result<Regrown> grown = growAgain(inputs, env, outcome, state);
-    whole_ = grown || stopped(inputs);  // which is heeded before any is changed
     if (!grown) return grown.failure();
     if (*grown == Regrown::noRoom) {
         room_.nodes = std::max(room_.nodes, stats_.nodes + stats_.nodes / 2);

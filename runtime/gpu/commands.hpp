@@ -86,13 +86,26 @@ class Commands {
 // The push data of a dispatch or draw: a trivially copyable struct, checked against the program's size.
 struct Push {
     Push() = default;
+    Push(const void* bytes, uint32_t count) : data(bytes), size(count) {}
     template <class T>
     requires(std::is_trivially_copyable_v<T> && !std::is_same_v<T, Push>) Push(const T& value)
         : data(&value), size(sizeof(T)) {}
     const void* data = nullptr;
     uint32_t size = 0;
 };
-using Bindings = std::initializer_list<Binding>;
+// What a program's bindings get, in the order of their numbers: a view of a list that lives as long as the call.
+class Bindings {
+  public:
+    Bindings() = default;
+    Bindings(std::initializer_list<Binding> list) : first_(std::data(list)), size_(list.size()) {}
+    Bindings(const std::vector<Binding>& list) : first_(list.data()), size_(list.size()) {}
+    const Binding& operator[](size_t i) const { return first_[i]; }
+    size_t size() const { return size_; }
+
+  private:
+    const Binding* first_ = nullptr;
+    size_t size_ = 0;
+};
 
 // A labelled and timed stretch of a recording. The pass lasts as long as the object. Passes of one name in one
 // recording are summed. Between dispatches of a pass there is no barrier but those you ask for.

@@ -75,7 +75,7 @@ void Pass::bind(const Program& program, const Push& push, Bindings bindings) {
     std::array<VkDescriptorImageInfo, kMaxBindings> images;
     std::array<VkDescriptorBufferInfo, kMaxBindings> buffers;
     for (size_t i = 0; i < bindings.size(); ++i) {
-        const Binding& given = bindings.begin()[i];
+        const Binding& given = bindings[i];
         const ShaderInterface::Slot& slot = program.slots()[i];
         const bool storage = slot.type == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
         images[i] = {given.sampler, given.view,

@@ -8,7 +8,6 @@
 #include <memory>
 #include <vector>
 
-#include "runtime/host/growth.hpp"
 #include "runtime/host/wide_nodes.hpp"
 #include "shaders/shared/expand_terminals.h"
 

@@ -1,7 +1,5 @@
-// In: growth's buffers by pointer. Out: the records that the kernels leave. Waves are taken in turn, items by whichever
+// In: growth's buffers by pointer. Out: the records that the kernels leave. Items of a wave are taken by whichever
 // thread is free; places are drawn by atomics as on a GPU, so records' order differs between runs of several threads.
-#include "runtime/host/growth.hpp"
-
 #include "runtime/host/finish.hpp"
 #include "runtime/host/march.hpp"
 #include "shaders/shared/expand_fit.h"
@@ -29,40 +27,46 @@ ESPALIER_WHOLE void fitNodes(ExpandEnv env, size_t begin, size_t end) {
     addHash(env, uint32_t(begin / kNodesAtOnce), hash);
 }
 
+// Of run.groups grammars.
+void packTables(ExpandEnv env, const HostRun& run) {
+    for (uint32_t i = 0; i < run.groups; ++i) packGrammar(env.grammars, env.tables, i, 0, 1);
+}
+
+void terminals(ExpandEnv env, const HostRun& run) {
+    if (!complete(env)) return;
+    const GrowStatus& s = env.status.v[0];
+    overRange(s.frozenNodes, s.nodes, kNodesAtOnce, run.crew, [&](size_t begin, size_t end) {
+        if (goesOn(run.watch, s.nodes)) finishNodes(env, begin, end);
+    });
+}
+
+void branches(ExpandEnv env, const HostRun& run) {
+    if (!complete(env)) return;
+    const GrowStatus& s = env.status.v[0];
+    overRange(s.frozenBranches, s.branches, kBranchesAtOnce, run.crew, [&](size_t begin, size_t end) {
+        for (uint32_t i = uint32_t(begin); i < end; ++i) {
+            if (env.phase == kTerminalsJoints)
+                sumJoint(env, i);
+            else
+                env.branches.v[i].thickness = thicknessOf(env, i);
+        }
+    });
+}
+
+void fit(ExpandEnv env, const HostRun& run) {
+    if (!complete(env)) return;
+    const GrowStatus& s = env.status.v[0];
+    overRange(s.frozenNodes, s.nodes, kNodesAtOnce, run.crew,
+              [&](size_t begin, size_t end) { fitNodes(env, begin, end); });
+}
+
+constexpr HostRow kRows[] = {
+    {"expand/tables.comp", passOf<ExpandEnv, packTables>},    {"expand/march.comp", waveOf<ExpandEnv, growWave>},
+    {"expand/march_paper.comp", waveOf<ExpandEnv, growWave>}, {"expand/terminals.comp", passOf<ExpandEnv, terminals>},
+    {"expand/branches.comp", passOf<ExpandEnv, branches>},    {"expand/fit.comp", passOf<ExpandEnv, fit>}};
+
 }  // namespace
 
-void packTablesNative(ExpandEnv env, uint32_t grammars) {
-    for (uint32_t i = 0; i < grammars; ++i) packGrammar(env.grammars, env.tables, i, 0, 1);
-}
-
-uint32_t marchNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide,
-                     GrowthWatch* watch) {
-    return march(env, queues, most, crew, wide, watch);
-}
-
-void terminalsNative(ExpandEnv env, Crew& crew, GrowthWatch* watch) {
-    if (!complete(env)) return;
-    const GrowStatus& s = env.status.v[0];
-    if (joints(env))
-        overRange(s.frozenBranches, s.branches, kBranchesAtOnce, crew, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) sumJoint(env, uint32_t(i));
-        });
-    for (uint32_t phase : {kTerminalsCount, kTerminalsWrite}) {
-        if (phase == kTerminalsCount && s.leafDensityCap <= 0) continue;
-        env.phase = phase;
-        overRange(s.frozenNodes, s.nodes, kNodesAtOnce, crew, [&](size_t begin, size_t end) {
-            if (goesOn(watch, s.nodes)) finishNodes(env, begin, end);
-        });
-    }
-}
-
-void fitNative(ExpandEnv env, Crew& crew) {
-    if (!complete(env)) return;
-    const GrowStatus& s = env.status.v[0];
-    overRange(s.frozenBranches, s.branches, kBranchesAtOnce, crew, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) env.branches.v[i].thickness = thicknessOf(env, uint32_t(i));
-    });
-    overRange(s.frozenNodes, s.nodes, kNodesAtOnce, crew, [&](size_t begin, size_t end) { fitNodes(env, begin, end); });
-}
+const std::span<const HostRow> kGrowthRows = kRows;
 
 }  // namespace espalier

@@ -8,7 +8,7 @@
 #include <bit>
 
 #include "runtime/core/jobs.hpp"
-#include "runtime/host/growth.hpp"
+#include "runtime/host/kernels.hpp"
 #include "runtime/host/wide_walk.hpp"
 #include "shaders/shared/expand_grow.h"
 
@@ -147,23 +147,19 @@ void overRange(uint32_t first, uint32_t last, size_t grain, Crew& crew, const Bo
                    [&](size_t begin, size_t end) { body(first + begin, first + end); });
 }
 
-// See marchNative.
-uint32_t march(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, bool wide, GrowthWatch* watch) {
-    wide = wide && platform::widestVectors() != VectorKind::narrow && !PAPER_WALK(env);
-    uint32_t w = env.wave;
-    for (; w < most && env.waves.v[w].count > 0 && !(watch && watch->stopped()); ++w) {
-        env.wave = w;
-        env.items = {queues[w & 1]};
-        env.nextItems = {queues[(w + 1) & 1]};
-        const uint32_t wanted = env.waves.v[w].count, count = std::min(wanted, env.itemCapacity);
-        if (wanted > count) atomicMax(env.status.v[0].items, wanted);
-        WaveItems items;
-        items.count = count;
-        items.watch = watch;
-        const uint32_t side = std::clamp(count / crew.threads(), 1u, kWalkLanes);  // few items are for all threads
-        crew.overRange(std::min(crew.threads(), count), 1, [&](size_t, size_t) { growItems(env, items, side, wide); });
-    }
-    return w;
+// Grows wave env.wave, env.phase being the last that may be grown. False: nothing waits in it.
+bool growWave(ExpandEnv env, const HostRun& run) {
+    const uint32_t wanted = env.waves.v[env.wave].count, count = std::min(wanted, env.itemCapacity);
+    if (wanted == 0) return false;
+    if (wanted > count) atomicMax(env.status.v[0].items, wanted);
+    const bool wide = !run.plain && platform::widestVectors() != VectorKind::narrow && !PAPER_WALK(env);
+    WaveItems items;
+    items.count = count;
+    items.watch = run.watch;
+    const uint32_t threads = run.crew.threads();
+    const uint32_t side = std::clamp(count / threads, 1u, kWalkLanes);  // few items are for all threads
+    run.crew.overRange(std::min(threads, count), 1, [&](size_t, size_t) { growItems(env, items, side, wide); });
+    return true;
 }
 
 }  // namespace

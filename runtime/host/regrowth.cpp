@@ -1,6 +1,7 @@
 // The passes of a regrowth in their order (expand_again.h). In: growth's buffers by pointer, an edit's. Out: what the
 // kernels leave there.
-#include "runtime/host/growth.hpp"
+#include "runtime/host/kernels.hpp"
+#include "shaders/shared/expand_env.h"
 
 // Text that ESPALIER_AGAIN changes must not be taken for growth.cpp's by the linker.
 #undef FN
@@ -84,12 +85,56 @@ void applyResults(ExpandEnv env, const LeafChains& chains, size_t piece, GoneTal
         applyResult(env, chains, AGAIN.results, AGAIN.resultCapacity, uint32_t(i), tally);
 }
 
-void apply(ExpandEnv env, Crew& crew) {
+// each(i) over the entries of a list.
+template <class Each>
+void overList(ExpandEnv env, uint32_t list, Crew& crew, const Each& each) {
+    overRange(0, listed(env, list), kEntriesAtOnce, crew, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) each(uint32_t(i));
+    });
+}
+
+// Copies the links that are drawn to env's as it looks at them.
+void find(ExpandEnv env, const HostRun& run) {
+    const EditHead head = editHead(env);
+    std::copy_n(AGAIN.branchesBefore.v, AGAIN.branchCount, env.branches.v);
+    overRange(0, AGAIN.chunkCount, kChunksAtOnce, run.crew, [&](size_t begin, size_t end) {
+        std::copy(AGAIN.chunksBefore.v + begin, AGAIN.chunksBefore.v + end, env.chunks.v + begin);
+        for (size_t c = begin; c < end; ++c) findChunk(env, head, uint32_t(c));
+    });
+}
+
+// Sooner done than shared out.
+void start(ExpandEnv env, const HostRun&) {
+    const UintBuf first = env.status.v[0].firstLeaves, next = env.status.v[0].nextLeaves;
+    for (uint32_t i = AGAIN.chainedLeaves; i < AGAIN.leafCount; ++i) chainAgain(env, first, next, i);
+    for (uint32_t i = 0; i < listed(env, kListDirty); ++i) startAgain(env, i);
+}
+
+void settle(ExpandEnv env, const HostRun& run) {
+    if (!complete(env)) return;
+    overList(env, kListGrown, run.crew, [&](uint32_t i) { settleAgain(env, AGAIN.chunksBefore, i); });
+}
+
+void work(ExpandEnv env, const HostRun& run) {
+    if (!complete(env)) return;
+    overList(env, kListBranches, run.crew, [&](uint32_t i) { workAgain(env, i); });
+}
+
+void terminals(ExpandEnv env, const HostRun& run) {
+    if (!complete(env)) return;
+    const uint32_t work = AGAIN.counts[kListWork];
+    if (work > AGAIN.resultCapacity) AGAIN.overrun = 1;
+    if (AGAIN.overrun != 0) return;
+    overRange(0, work, kWorkAtOnce, run.crew, [&](size_t begin, size_t end) { finishWork(env, begin, end); });
+}
+
+void apply(ExpandEnv env, const HostRun& run) {
+    if (!holds(env)) return;
     const LeafChains chains = {env.status.v[0].firstLeaves, env.status.v[0].nextLeaves};
     const size_t gone = piecesOf(listed(env, kListGone), kEntriesAtOnce),
                  grown = gone + piecesOf(listed(env, kListGrown), kEntriesAtOnce),
                  all = grown + piecesOf(AGAIN.counts[kListWork], kWorkAtOnce);
-    crew.overRange(all, 1, [&](size_t piece, size_t) {
+    run.crew.overRange(all, 1, [&](size_t piece, size_t) {
         GoneTally tally = nothingGone();
         if (piece < gone)
             takeChunks(env, chains, kListGone, piece, tally);
@@ -101,8 +146,14 @@ void apply(ExpandEnv env, Crew& crew) {
     });
 }
 
-void fit(ExpandEnv env, Crew& crew) {
-    overRange(0, listed(env, kListFit), kEntriesAtOnce, crew, [&](size_t begin, size_t end) {
+void thickness(ExpandEnv env, const HostRun& run) {
+    if (!holds(env)) return;
+    overList(env, kListKin, run.crew, [&](uint32_t i) { thickenAgain(env, i); });
+}
+
+void fit(ExpandEnv env, const HostRun& run) {
+    if (!holds(env)) return;
+    overRange(0, listed(env, kListFit), kEntriesAtOnce, run.crew, [&](size_t begin, size_t end) {
         ChunkBrief briefs[kEntriesAtOnce];
         const size_t count = end - begin;
         for (size_t i = 0; i < count; ++i)
@@ -121,45 +172,18 @@ void fit(ExpandEnv env, Crew& crew) {
     for (uint32_t i = AGAIN.leafCount; i < env.status.v[0].leaves; ++i) showLeaf(env, i);
 }
 
-// each(i) over the entries of a list.
-template <class Each>
-void overList(ExpandEnv env, uint32_t list, Crew& crew, const Each& each) {
-    overRange(0, listed(env, list), kEntriesAtOnce, crew, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) each(uint32_t(i));
-    });
-}
+constexpr HostRow kRows[] = {{"expand/again_find.comp", passOf<ExpandEnv, find>},
+                             {"expand/again_start.comp", passOf<ExpandEnv, start>},
+                             {"expand/march_again.comp", waveOf<ExpandEnv, growWave>},
+                             {"expand/again_settle.comp", passOf<ExpandEnv, settle>},
+                             {"expand/again_work.comp", passOf<ExpandEnv, work>},
+                             {"expand/terminals_again.comp", passOf<ExpandEnv, terminals>},
+                             {"expand/again_apply.comp", passOf<ExpandEnv, apply>},
+                             {"expand/again_thickness.comp", passOf<ExpandEnv, thickness>},
+                             {"expand/again_fit.comp", passOf<ExpandEnv, fit>}};
 
 }  // namespace
 
-void findNative(ExpandEnv env, Crew& crew) {
-    const EditHead head = editHead(env);
-    std::copy_n(AGAIN.branchesBefore.v, AGAIN.branchCount, env.branches.v);
-    overRange(0, AGAIN.chunkCount, kChunksAtOnce, crew, [&](size_t begin, size_t end) {
-        std::copy(AGAIN.chunksBefore.v + begin, AGAIN.chunksBefore.v + end, env.chunks.v + begin);
-        for (size_t c = begin; c < end; ++c) findChunk(env, head, uint32_t(c));
-    });
-    const UintBuf first = env.status.v[0].firstLeaves, next = env.status.v[0].nextLeaves;
-    for (uint32_t i = AGAIN.chainedLeaves; i < AGAIN.leafCount; ++i) chainAgain(env, first, next, i);
-    for (uint32_t i = 0; i < listed(env, kListDirty); ++i) startAgain(env, i);  // sooner done than shared out
-}
-
-uint32_t marchAgainNative(ExpandEnv env, const ItemQueues& queues, uint32_t most, Crew& crew, GrowthWatch* watch) {
-    return march(env, queues, most, crew, true, watch);
-}
-
-void finishAgainNative(ExpandEnv env, Crew& crew) {
-    if (!complete(env)) return;
-    overList(env, kListGrown, crew, [&](uint32_t i) { settleAgain(env, AGAIN.chunksBefore, i); });
-    overList(env, kListBranches, crew, [&](uint32_t i) { workAgain(env, i); });
-    const uint32_t work = AGAIN.counts[kListWork];
-    if (work > AGAIN.resultCapacity) AGAIN.overrun = 1;
-    if (AGAIN.overrun != 0) return;
-    env.phase = kTerminalsAgain;
-    overRange(0, work, kWorkAtOnce, crew, [&](size_t begin, size_t end) { finishWork(env, begin, end); });
-    if (!holds(env)) return;
-    apply(env, crew);
-    overList(env, kListKin, crew, [&](uint32_t i) { thickenAgain(env, i); });
-    fit(env, crew);
-}
+const std::span<const HostRow> kRegrowthRows = kRows;
 
 }  // namespace espalier

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "runtime/run/at_once.hpp"
+
 namespace espalier {
 namespace {
 
@@ -159,7 +161,7 @@ Result<GrownPattern> PatternGrowth::grow(const PatternInputs& inputs, std::span<
     dispatches_ = 0;
     if (Status made = makeAtLeast(device_, status_, "pattern status", sizeof(PatternStatus)); !made)
         return made.failure();
-    if (native && device_.info().cpu && uintptr_t(status_.mapped()) == status_.address()) {
+    if (runsAtOnce(device_, native, status_)) {
         PatternInputs own = inputs;
         own.fields.v = const_cast<FieldRef*>(fieldTable.data());
         return growPatternsOnCpu(own);

@@ -2,8 +2,10 @@
 // measured against. And how room for both is found.
 #include <algorithm>
 
-#include "runtime/host/roofs.hpp"
+#include "runtime/machine/waves.hpp"
 #include "runtime/roof_growth/roof_data.hpp"
+#include "runtime/roof_growth/roof_stages.hpp"
+#include "runtime/run/host_runner.hpp"
 #include "shaders/shared/roof_tables.h"
 
 namespace espalier {
@@ -73,7 +75,7 @@ struct CpuRun {
     RuleMapRef map;
     std::vector<RoofScope> scopes[2];
     std::vector<uint32_t> starts;  // atoms of the first wave
-    std::vector<RoofWave> waves;
+    std::vector<Wave> waves;
     std::vector<float> means;
     RoofLayer layers[kRoofLayers] = {};
     CpuRoofs out;
@@ -91,7 +93,7 @@ struct CpuRun {
         scopes[0].resize(room.scopes);
         scopes[1].resize(room.scopes);
         out.records.plots = t.plots;
-        waves.assign(kMaxRoofDepth + 2, RoofWave{0, {0, 1, 1}});
+        waves = wavesBefore(kMaxRoofDepth + 2, uint32_t(starts.size()), 0);
         out.status = {};
         out.status.regions = uint32_t(t.regions.size());
         out.status.parts = uint32_t(t.parts.size());
@@ -129,17 +131,13 @@ struct CpuRun {
     }
     // The widest wave.
     uint32_t derive(RoofEnv env, unsigned threads) {
-        uint32_t widest = 0;
-        Crew crew(threads);
-        for (uint32_t w = 0; w <= kMaxRoofDepth && waves[w].count > 0; ++w) {
-            widest = std::max(widest, waves[w].count);
-            env.wave = w;
-            env.shapes.v = scopes[w & 1].data();
-            env.next.v = scopes[(w + 1) & 1].data();
-            deriveRoofsNative(env, crew);
-            out.waves = w + 1;
-        }
-        return widest;
+        env.shapes.v = scopes[0].data();
+        env.next.v = scopes[1].data();
+        StageList stages = roofStages({}, env, 0, kMaxRoofDepth + 1);
+        HostRunner(threads, true).run(stages);
+        const std::span<const Wave> run = std::span(waves).first(kMaxRoofDepth + 1);
+        out.waves = wavesOf(run);
+        return widestOf(run);
     }
 };
 
@@ -153,7 +151,6 @@ CpuRoofs growRoofsOnCpu(const RoofInputs& inputs, unsigned threads) {
     run.out.complete = tooManyShapes();
     for (int attempt = 0; attempt < 12; ++attempt) {
         RoofEnv env = run.prepare(room);
-        run.waves[0].count = count;
         const uint32_t widest = run.derive(env, threads);
         RoofStatus made = run.out.status;
         made.regions -= uint32_t(inputs.town->regions.size());

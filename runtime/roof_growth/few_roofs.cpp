@@ -60,10 +60,10 @@ Result<RoofGrowth::Outcome> RoofGrowth::growFew(const RoofInputs& inputs, std::s
     s.terminals += made.status.terminals;
     for (int i : {0, 1}) s.hash[i] += made.status.hash[i];
     outcome.waves = made.waves;
-    outcome.complete = fits(s, sets_[front_]);
+    outcome.complete = fits(s, sets_.drawn());
     if (!outcome.complete) return outcome;
 
-    Set& set = sets_[front_];
+    Set& set = sets_.drawn();
     Result<Commands> commands = Commands::begin(device_, "few roofs");
     if (!commands) return commands.failure();
     commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);

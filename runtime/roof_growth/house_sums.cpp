@@ -19,7 +19,7 @@ RoofGrowth::Sums RoofGrowth::sumsOf(const RoofGrid& grid, std::span<const RoofRu
 
 Status RoofGrowth::countHouses() {
     if (!houseSums_.empty()) return Done{};
-    const Set& set = sets_[front_];
+    const Set& set = sets_.drawn();
     auto grids = readVector<RoofGrid>(device_, set.grids, 0, last_.grids);
     if (!grids) return grids.failure();
     auto runs = readVector<RoofRun>(device_, set.runs, 0, last_.rows);
@@ -31,7 +31,7 @@ Status RoofGrowth::countHouses() {
 
 Status RoofGrowth::recount(std::span<const uint32_t> houses, Outcome& outcome) {
     if (outcome.grids.empty() && outcome.status.grids > last_.grids) {  // they grew on the GPU
-        const Set& set = sets_[front_];
+        const Set& set = sets_.drawn();
         auto grids = readVector<RoofGrid>(device_, set.grids, last_.grids, outcome.status.grids - last_.grids);
         if (!grids) return grids.failure();
         auto runs = readVector<RoofRun>(device_, set.runs, last_.rows, outcome.status.rows - last_.rows);

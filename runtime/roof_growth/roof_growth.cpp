@@ -1,10 +1,9 @@
 // Expansion of roofs on the GPU (Buron 2013 §3). In: atoms and a rule map by address. Out: grids and their rows' runs.
-// Waves are recorded ahead as indirect dispatches, as many as the last expansion took; should that be too few, all.
+// Waves are recorded ahead, as many as the last expansion took; should that be too few, more of them.
 // What ran out of room is grown again with more, into a second set of buffers, so that the last good roofs stand until
 // the new ones are complete. Single houses are grown behind the others, whose records stay; their old ones are told by
 // their generation.
 #include <algorithm>
-#include <cstddef>
 #include <new>
 
 #include "runtime/core/check.hpp"
@@ -23,17 +22,14 @@ constexpr size_t kFewHouses = 32;  // that the CPU grows in less time than submi
 constexpr uint32_t kCommonRules = 1u << kRuleNull | 1u << kRuleExtrude | 1u << kRuleJoinRoof | 1u << kRuleRepeat |
                                   1u << kRuleScope | 1u << kRuleShape;
 constexpr uint32_t kRareRules = 1u << kRuleJoin | 1u << kRuleProject | 1u << kRuleExplode | 1u << kRuleSplit;
-// Read back: the status, the waves, what houses have read.
-constexpr uint64_t kReadsAt = sizeof(RoofStatus) + kRoofWaves * sizeof(RoofWave);
-
 }  // namespace
 
 Status RoofGrowth::setUp() {
     return ensure(noWords_, "no roof grammar", kUniformMapWords * 4);
 }
 
-// Kernels for what the grammar uses.
-Status RoofGrowth::makeKernels(const RuleMap& grammar, bool fetches) {
+// Kernels are made for what the grammar uses.
+void RoofGrowth::noticeKind(const RuleMap& grammar, bool fetches) {
     const RuleMapRef map = grammar.ref();
     Kind kind{words_.size() > kUniformMapWords * 4, !fetches, kind_.uses};
     for (uint32_t i = 0; i < map.ruleCount; ++i) {
@@ -43,14 +39,8 @@ Status RoofGrowth::makeKernels(const RuleMap& grammar, bool fetches) {
     for (uint32_t i = 0; i < map.symbolCount; ++i)
         if (map.symbols.v[i].layers) kind.uses |= kRoofUsesLayers;
     kind.uses |= kCommonRules | (kind.uses & kRareRules ? kRareRules : 0);
-    if (derive_ && kind == kind_) return Done{};
+    if (kind != kind_) runner_.dropPrograms(kConstantRoofUses);
     kind_ = kind;
-    derive_ = {};
-    return makeCompute(device_, {{derive_, "roof_growth/derive.comp",
-                                  exactly({{kConstantTablesByAddress, kind.mapByAddress},
-                                           {kConstantRoofUses, kind.uses},
-                                           {kConstantRecordsByAddress, kind.recordsByAddress}}),
-                                  kRoofGroup}});
 }
 
 RoofEnv RoofGrowth::environment(const RoofInputs& inputs, const Set& set) const {
@@ -67,7 +57,7 @@ RoofEnv RoofGrowth::environment(const RoofInputs& inputs, const Set& set) const 
     env.runs = addressOf<RoofRunBuf>(set.runs);
     env.meshes = addressOf<RoofMeshBuf>(meshes_);
     env.status = addressOf<RoofStatusBuf>(status_);
-    env.waves = addressOf<RoofWaveBuf>(waves_);
+    env.waves = addressOf<WaveBuf>(waves_);
     env.plots = addressOf<RoofPlotBuf>(set.plots);
     env.layers = addressOf<RoofLayerBuf>(set.layers);
     env.means = addressOf<FloatBuf>(means_);
@@ -85,81 +75,84 @@ RoofEnv RoofGrowth::environment(const RoofInputs& inputs, const Set& set) const 
     return env;
 }
 
-void RoofGrowth::record(Commands& commands, const Texels& texels, uint32_t waves) {
-    {
-        // One pass: on software devices each time stamp wakes all threads, which one house would feel.
-        Pass pass(commands, "roof expand");
-        for (uint32_t w = 0; w < waves; ++w) {
-            pass.dispatchIndirect(derive_, waves_, w * sizeof(RoofWave) + offsetof(RoofWave, groups), w,
-                                  {env_, map_, kind_.mapByAddress ? noWords_ : words_, texels.atoms, texels.regions,
-                                   texels.pieces, texels.shapes[w & 1], texels.parts, texels.planes});
-            pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect | Use::transfer | Use::vertex);
-        }
-    }
-    commands.copy(status_, readback_, sizeof(RoofStatus));
-    commands.copy(waves_, readback_, kRoofWaves * sizeof(RoofWave), 0, sizeof(RoofStatus));
-    if (!plots_.empty()) commands.copy(houseReads_, readback_, plots_.size() * 4, 0, kReadsAt);
-    commands.barrier(Use::transfer, Use::host);
-}
-
-RoofGrowth::Outcome RoofGrowth::readBack() {
-    Outcome outcome;
-    outcome.ms = device_.milliseconds("roof expand");
-    std::memcpy(&outcome.status, readback_.mapped(), sizeof(RoofStatus));
-    std::array<RoofWave, kRoofWaves> waves;
-    std::memcpy(static_cast<void*>(waves.data()), readback_.mapped() + sizeof(RoofStatus), sizeof(waves));
-    reads_.resize(plots_.size());
-    std::memcpy(reads_.data(), readback_.mapped() + kReadsAt, reads_.size() * 4);
-    for (const RoofWave& w : waves) {
-        outcome.waves += w.count > 0 ? 1 : 0;
-        outcome.widest = std::max(outcome.widest, w.count);
-    }
-    return outcome;
-}
-
-Result<RoofGrowth::Outcome> RoofGrowth::expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
-                                               RoofStatus status, uint32_t waves) {
-    if (houses.empty())
-        if (Status s = makeRoom(set); !s) return s.failure();
-    Result<Commands> commands = Commands::begin(device_, "roofs");
-    if (!commands) return commands.failure();
-    if (Status s = uploadGrammar(*commands, inputs); !s) return s.failure();
-    if (Status s = uploadTables(*commands, *inputs.town, set); !s) return s.failure();
-    if (Status s = uploadStarts(*commands, *inputs.town, houses); !s) return s.failure();
-    if (Status s = uploadHouses(*commands, inputs, set, houses); !s) return s.failure();
-    if (Status s = uploadLayers(*commands, inputs, set); !s) return s.failure();
+// All that the first wave's kernels read. Returns what they are bound to.
+Result<RoofGrowth::Texels> RoofGrowth::send(Commands& commands, const RoofInputs& inputs, Set& set,
+                                            std::span<const uint32_t> houses, const RoofStatus& status) {
+    if (Status s = uploadGrammar(commands, inputs); !s) return s.failure();
+    if (Status s = uploadTables(commands, *inputs.town, set); !s) return s.failure();
+    if (Status s = uploadStarts(commands, *inputs.town, houses); !s) return s.failure();
+    if (Status s = uploadHouses(commands, inputs, set, houses); !s) return s.failure();
+    if (Status s = uploadLayers(commands, inputs, set); !s) return s.failure();
     room_.scopes = std::max(room_.scopes, startCount_);
     for (Buffer& scopes : scopes_)
         if (Status s = ensure(scopes, "roof scopes", room_.scopes * sizeof(RoofScope)); !s) return s.failure();
 
-    std::array<RoofWave, kRoofWaves> queues;
-    queues.fill({0, {0, 1, 1}});
-    queues[0] = {startCount_, {(startCount_ + kRoofGroup - 1) / kRoofGroup, 1, 1}};
+    const std::vector<Wave> waves = wavesBefore(kRoofWaves, startCount_, (startCount_ + kRoofGroup - 1) / kRoofGroup);
     const RoofEnv env = environment(inputs, set);
-    if (Status s = allDone({commands->upload(waves_, std::as_bytes(std::span(queues))),
-                            commands->upload(status_, std::as_bytes(std::span(&status, 1))),
-                            commands->upload(env_, std::as_bytes(std::span(&env, 1)))});
+    if (Status s =
+            allDone({commands.upload(waves_, waves), commands.upload(status_, std::as_bytes(std::span(&status, 1))),
+                     commands.upload(env_, std::as_bytes(std::span(&env, 1)))});
         !s)
         return s.failure();
-    commands->barrier(Use::transfer, Use::compute | Use::indirect);
     const bool fetches = mayFetch(inputs, set);
-    if (Status s = makeKernels(*inputs.grammar, fetches); !s) return s.failure();
-    Result<Texels> texels = viewRecords(set, fetches);
-    if (!texels) return texels.failure();
-    record(*commands, *texels, waves);
-    if (Status s = commands->finish(); !s) return s.failure();
-    device_.collect();
-    Outcome outcome = readBack();
-    outcome.complete = outcome.waves <= waves;
-    return outcome;
+    noticeKind(*inputs.grammar, fetches);
+    return viewRecords(set, fetches);
 }
 
-Result<RoofGrowth::Outcome> RoofGrowth::expandWhole(const RoofInputs& inputs, Set& set,
-                                                    std::span<const uint32_t> houses, RoofStatus status) {
-    Result<Outcome> outcome = expand(inputs, set, houses, status, wavesAhead_);
-    if (outcome && !outcome->complete) outcome = expand(inputs, set, houses, status, kRoofWaves - 1);
-    if (outcome)
-        wavesAhead_ = std::min(houses.empty() ? outcome->waves : std::max(wavesAhead_, outcome->waves), kRoofWaves - 1);
+RoofShaders RoofGrowth::shaders(const Texels& texels) const {
+    RoofShaders s;
+    s.waves = &waves_;
+    s.constants = {{kConstantTablesByAddress, kind_.mapByAddress},
+                   {kConstantRoofUses, kind_.uses},
+                   {kConstantRecordsByAddress, kind_.recordsByAddress}};
+    for (int odd : {0, 1})
+        s.bindings[odd] = {env_,
+                           map_,
+                           kind_.mapByAddress ? noWords_ : words_,
+                           texels.atoms,
+                           texels.regions,
+                           texels.pieces,
+                           texels.shapes[odd],
+                           texels.parts,
+                           texels.planes};
+    return s;
+}
+
+// A run's status, waves, and what houses have read.
+void RoofGrowth::readBack(Run& run) const {
+    run.readBack(status_, sizeof(RoofStatus));
+    run.readBack(waves_, kRoofWaves * sizeof(Wave));
+    run.readBack(houseReads_, plots_.size() * 4);
+}
+
+// Returns whether shapes wait for wave `last`.
+bool RoofGrowth::take(const Run& run, uint32_t last, Outcome& outcome) {
+    outcome.ms += run.milliseconds("roof expand");
+    outcome.status = *run.got<RoofStatus>(0);
+    const std::span<const Wave> waves(run.got<Wave>(1), kRoofWaves);
+    reads_.assign(run.got<uint32_t>(2), run.got<uint32_t>(2) + plots_.size());
+    outcome.waves = wavesOf(waves);
+    outcome.widest = widestOf(waves);
+    return waves[last].count > 0;
+}
+
+Result<RoofGrowth::Outcome> RoofGrowth::expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
+                                               const RoofStatus& status) {
+    if (houses.empty())
+        if (Status s = makeRoom(set); !s) return s.failure();
+    Texels texels;
+    const auto add = [&](Run& run, uint32_t first, uint32_t last) -> Status {
+        if (first == 0)
+            if (Status s = assign(texels, send(run.send(), inputs, set, houses, status)); !s) return s;
+        readBack(run);
+        return run.add(roofStages(shaders(texels), environment(inputs, set), first, last));
+    };
+    Outcome outcome;
+    const auto waitsStill = [&](const Run& run, uint32_t last) -> Result<bool> { return take(run, last, outcome); };
+    if (Status s = runWaves(runner_, "roofs", false, wavesAhead_, kRoofWaves - 1, add, waitsStill); !s)
+        return s.failure();
+    outcome.complete = true;
+    wavesAhead_ = std::clamp(houses.empty() ? outcome.waves : std::max(wavesAhead_, outcome.waves), 1u, kRoofWaves - 1);
     return outcome;
 }
 
@@ -180,7 +173,7 @@ void RoofGrowth::measure(const RoofTables& t, uint32_t house) {
 }
 
 void RoofGrowth::publish(const RoofInputs& inputs, const Outcome& outcome, std::span<const uint32_t> houses) {
-    const Set& set = sets_[front_];
+    const Set& set = sets_.drawn();
     last_ = outcome.status;
     view_.grids = addressOf<RoofGridBuf>(set.grids);
     view_.runs = addressOf<RoofRunBuf>(set.runs);
@@ -229,7 +222,7 @@ void RoofGrowth::publish(const RoofInputs& inputs, const Outcome& outcome, std::
 
 uint64_t RoofGrowth::reserved() const {
     uint64_t bytes = 0;
-    for (const Set& s : sets_)
+    for (const Set& s : sets_.sets)
         bytes += s.grids.size() + s.runs.size() + s.plots.size() + s.regions.buffer.size() + s.parts.buffer.size() +
                  s.planes.buffer.size();
     for (const Buffer* b : {&atoms_.buffer, &pieces_.buffer, &scopes_[0], &scopes_[1]}) bytes += b->size();
@@ -237,17 +230,14 @@ uint64_t RoofGrowth::reserved() const {
 }
 
 void RoofGrowth::trim() {
-    const auto fit = [](uint32_t& room, uint32_t needed, uint32_t least) {
-        room = std::min<uint64_t>(room, std::max<uint64_t>(needed + needed / 2ull, least));
-    };
     const RoofRoom least;
-    fit(room_.scopes, widest_, least.scopes);
-    fit(room_.grids, last_.grids, least.grids);
-    fit(room_.rows, last_.rows, least.rows);
-    fit(room_.regions, last_.regions, least.regions);
-    fit(room_.parts, last_.parts, least.parts);
-    fit(room_.planes, last_.planes, least.planes);
-    sets_[1 - front_] = {};
+    shrinkRoom(room_.scopes, widest_, least.scopes);
+    shrinkRoom(room_.grids, last_.grids, least.grids);
+    shrinkRoom(room_.rows, last_.rows, least.rows);
+    shrinkRoom(room_.regions, last_.regions, least.regions);
+    shrinkRoom(room_.parts, last_.parts, least.parts);
+    shrinkRoom(room_.planes, last_.planes, least.planes);
+    sets_.spare() = {};
     for (Buffer& scopes : scopes_) scopes = {};
     stats_.reservedBytes = reserved();
 }
@@ -285,7 +275,7 @@ Status RoofGrowth::growAll(const RoofInputs& inputs) {
         status.regions = own_.regions;
         status.parts = own_.parts;
         status.planes = own_.planes;
-        Result<Outcome> outcome = expandWhole(inputs, sets_[1 - front_], {}, status);
+        Result<Outcome> outcome = expand(inputs, sets_.spare(), {}, status);
         if (!outcome) return outcome.failure();
         RoofStatus made = outcome->status;
         made.regions -= own_.regions;
@@ -294,7 +284,7 @@ Status RoofGrowth::growAll(const RoofInputs& inputs) {
         Result<bool> held = room_.hold(made, outcome->widest, startCount_);
         if (!held) return held.failure();
         if (*held) {
-            front_ = 1 - front_;
+            sets_.swap();
             widest_ = outcome->widest;
             publish(inputs, *outcome, {});
             stats_.housesGrown += t.houses.size();
@@ -318,14 +308,14 @@ Status RoofGrowth::growHouses(const RoofInputs& inputs, std::span<const uint32_t
     if (!possible) return grow(inputs);
     if (Status counted = countHouses(); !counted) return counted;
     std::vector<RoofPlot> before = plots_;
-    Set& set = sets_[front_];
+    Set& set = sets_.drawn();
     Undo undo([&] { takeBack(set, houses, before); });
     for (uint32_t house : houses) {
         plots_[house].at = t.plots[house].at;
         plots_[house].generation += 1;
     }
     const bool few = houses.size() <= kFewHouses;
-    Result<Outcome> outcome = few ? growFew(inputs, houses) : expandWhole(inputs, set, houses, last_);
+    Result<Outcome> outcome = few ? growFew(inputs, houses) : expand(inputs, set, houses, last_);
     const bool held = outcome && outcome->complete && fits(outcome->status, set) && outcome->widest <= room_.scopes;
     if (!held) {
         Status grown = outcome ? grow(inputs) : Status(outcome.failure());
@@ -357,18 +347,12 @@ void RoofGrowth::takeBack(const Set& set, std::span<const uint32_t> houses, std:
 
 Result<RoofRecords> RoofGrowth::read() {
     RoofRecords to;
-    const Set& set = sets_[front_];
-    auto fetch = [&](auto& values, const Buffer& buffer, uint32_t count) -> Status {
-        if (count == 0) return Done{};
-        auto got = readVector<typename std::decay_t<decltype(values)>::value_type>(device_, buffer, 0, count);
-        if (!got) return got.failure();
-        values = std::move(*got);
-        return Done{};
-    };
-    if (Status s = allDone({fetch(to.grids, set.grids, last_.grids), fetch(to.runs, set.runs, last_.rows),
-                            fetch(to.regions, set.regions.buffer, last_.regions),
-                            fetch(to.parts, set.parts.buffer, last_.parts),
-                            fetch(to.planes, set.planes.buffer, last_.planes)});
+    const Set& set = sets_.drawn();
+    if (Status s = allDone({readRecords(device_, set.grids, last_.grids, to.grids),
+                            readRecords(device_, set.runs, last_.rows, to.runs),
+                            readRecords(device_, set.regions.buffer, last_.regions, to.regions),
+                            readRecords(device_, set.parts.buffer, last_.parts, to.parts),
+                            readRecords(device_, set.planes.buffer, last_.planes, to.planes)});
         !s)
         return s.failure();
     to.plots = plots_;

@@ -9,9 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "runtime/gpu/commands.hpp"
-#include "runtime/gpu/program.hpp"
+#include "runtime/machine/room.hpp"
+#include "runtime/machine/run_waves.hpp"
+#include "runtime/machine/waves.hpp"
 #include "runtime/roof_growth/roof_data.hpp"
+#include "runtime/roof_growth/roof_stages.hpp"
 
 namespace espalier {
 
@@ -38,7 +40,7 @@ class RoofGrowth {
     void trim();
 
   private:
-    explicit RoofGrowth(Device& device) : device_(device) {}
+    explicit RoofGrowth(Device& device) : device_(device), runner_(device, "roof") {}
     Status setUp();
 
     // Records of the town's tables, which only grow, and how many of them the GPU has been sent.
@@ -60,7 +62,7 @@ class RoofGrowth {
     struct Outcome {
         RoofStatus status;
         uint32_t waves = 0, widest = 0;
-        bool complete = false;  // no shape waits for a wave that wasn't recorded
+        bool complete = false;  // it has found room
         double ms = 0;
         // Of a few houses, as they are sent.
         std::vector<RoofGrid> grids;
@@ -106,8 +108,8 @@ class RoofGrowth {
         glm::vec3 low{1e9f}, high{-1e9f};
     };
 
-    Status makeKernels(const RuleMap& grammar, bool fetches);
-    Status ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use = BufferUse::device);
+    void noticeKind(const RuleMap& grammar, bool fetches);
+    Status ensure(Buffer& buffer, const char* name, uint64_t bytes);
     Status ensure(Table& table, const char* name, uint64_t bytes);
     Status makeRoom(Set& set);
     Result<Texels> viewRecords(const Set& set, bool fetches) const;
@@ -125,18 +127,18 @@ class RoofGrowth {
     RoofEnv environment(const RoofInputs& inputs, const Set& set) const;
 
     Status growAll(const RoofInputs& inputs);
-    // houses: those to grow, none: all. Goes through at most `waves` waves.
-    Result<Outcome> expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses, RoofStatus status,
-                           uint32_t waves);
-    // With as many waves as the last expansion took, or with all if that was too few.
-    Result<Outcome> expandWhole(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
-                                RoofStatus status);
+    // houses: those to grow, none: all.
+    Result<Outcome> expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
+                           const RoofStatus& status);
+    Result<Texels> send(Commands& commands, const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
+                        const RoofStatus& status);
+    RoofShaders shaders(const Texels& texels) const;
+    void readBack(Run& run) const;
+    bool take(const Run& run, uint32_t last, Outcome& outcome);
     // On the CPU, sent behind what the published set holds. Not complete: there is no room for it.
     Result<Outcome> growFew(const RoofInputs& inputs, std::span<const uint32_t> houses);
     // These haven't grown.
     void takeBack(const Set& set, std::span<const uint32_t> houses, std::vector<RoofPlot>& plots) noexcept;
-    void record(Commands& commands, const Texels& texels, uint32_t waves);
-    Outcome readBack();
     // Whether what a status tells has found room.
     static bool fits(const RoofStatus& status, const Set& set);
     // houses: that have grown, none: all.
@@ -150,13 +152,12 @@ class RoofGrowth {
     Status recount(std::span<const uint32_t> houses, Outcome& outcome);
 
     Device& device_;
-    Program derive_;
+    Runner runner_;
     Kind kind_;
     RoofRoom room_;
-    Set sets_[2];
-    uint32_t front_ = 0;
+    DoubleBuffered<Set> sets_;
     Table atoms_, pieces_;
-    Buffer starts_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, houseReads_, means_, readback_;
+    Buffer starts_, words_, noWords_, map_, meshes_, scopes_[2], status_, waves_, env_, houseReads_, means_;
     std::map<std::string, LayerTexels> layers_;  // by name
     uint64_t grammarRevision_ = 0;
     uint32_t wavesAhead_ = 4, widest_ = 0;   // shapes of the widest wave, when all houses grew last

@@ -9,13 +9,12 @@
 
 namespace espalier {
 
-Status RoofGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes, BufferUse use) {
+Status RoofGrowth::ensure(Buffer& buffer, const char* name, uint64_t bytes) {
     if (buffer && buffer.size() >= bytes) return Done{};
-    buffer = {};
     // What may be bound as a uniform buffer stays as small as that.
     static_assert(kUniformMapWords * 4 == kUniformBytes);
     const uint64_t spare = bytes > kUniformMapWords * 4 ? bytes / 8 : 0;
-    return assign(buffer, Buffer::create(device_, name, bytes + spare, use));
+    return ensureRoom(device_, buffer, name, bytes + spare);
 }
 
 Status RoofGrowth::ensure(Table& table, const char* name, uint64_t bytes) {
@@ -45,15 +44,14 @@ Status RoofGrowth::makeRoom(Set& set) {
     } rows[] = {{set.grids, "roof grids", room_.grids * sizeof(RoofGrid)},
                 {set.runs, "roof runs", room_.rows * sizeof(RoofRun)},
                 {status_, "roof status", sizeof(RoofStatus)},
-                {waves_, "roof waves", kRoofWaves * sizeof(RoofWave)},
+                {waves_, "roof waves", kRoofWaves * sizeof(Wave)},
                 {env_, "roof environment", sizeof(RoofEnv)},
                 {set.plots, "roof plots", houses * sizeof(RoofPlot)},
                 {houseReads_, "what roofs read", houses * 4},
                 {means_, "roof layers' means", houses * kRoofLayers * 4}};
     for (const auto& r : rows)
         if (Status s = ensure(r.buffer, r.name, r.bytes); !s) return s;
-    const uint64_t back = sizeof(RoofStatus) + kRoofWaves * sizeof(RoofWave) + houses * 4;
-    return ensure(readback_, "roof readback", back, BufferUse::readback);
+    return Done{};
 }
 
 // What is worked out of the town's tables once, not at each expansion.
@@ -79,7 +77,7 @@ void RoofGrowth::noticeTown(const RoofInputs& inputs) {
 
 void RoofGrowth::forgetTables() {
     for (Table* t : {&atoms_, &pieces_}) t->held = 0;
-    for (Set& set : sets_)
+    for (Set& set : sets_.sets)
         for (Table* t : {&set.regions, &set.parts, &set.planes}) t->held = 0;
     startsSent_ = false;
     for (auto& [name, layer] : layers_) layer.sent = false;
@@ -163,11 +161,11 @@ Status RoofGrowth::showLayers(const RoofInputs& inputs) {
     Result<Commands> commands = Commands::begin(device_, "roof layers");
     if (!commands) return commands.failure();
     commands->barrier(Use::compute | Use::vertex | Use::fragment, Use::transfer);
-    if (Status s = uploadLayers(*commands, inputs, sets_[front_]); !s) return s;
+    if (Status s = uploadLayers(*commands, inputs, sets_.drawn()); !s) return s;
     Result<uint64_t> submitted = commands->submit();
     if (!submitted) return submitted.failure();
     undo.done();
-    view_.layers = addressOf<RoofLayerBuf>(sets_[front_].layers);
+    view_.layers = addressOf<RoofLayerBuf>(sets_.drawn().layers);
     view_.site = inputs.site;
     return Done{};
 }

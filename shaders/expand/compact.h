@@ -12,9 +12,12 @@ struct CompactEnv {
     ChunkBuf chunks, toChunks;        // toChunks: a copy at first
     UintBuf nodesWent, leavesWent;    // GrowthMove::nodes, ::leaves; of nodes kNoIndex at first
     GrowStatusBuf status;             // nodes, leaves: how many there are now
+    UintBuf firstLeaves, nextLeaves;  // GrowStatus's, which native code takes along; not given: leaves aren't chained
     uint chunkCount, leafCount;       // before, with gaps
+    uint nodeCount;                   // likewise, for native code
+    uint spare;
 };
-STATIC_SIZE(CompactEnv, 80);
+STATIC_SIZE(CompactEnv, 104);
 
 // Gives a chunk's nodes their new places.
 FN void placeChunk(CompactEnv env, uint chunk) {

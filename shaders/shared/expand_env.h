@@ -4,6 +4,7 @@
 #include "records/growth_records.h"
 #include "records/staged_sample.h"
 #include "shaders/shared/rule_map.h"
+#include "shaders/shared/waves.h"
 
 ESPALIER_BEGIN
 
@@ -44,17 +45,6 @@ struct GrowStatus {
 };
 STATIC_SIZE(GrowStatus, 664);
 BUFFER(GrowStatusBuf, GrowStatus)
-
-// One wave of the queue: how many items wait, and the indirect arguments that grow as they are pushed.
-struct Wave {
-    uint count;
-    uint groups[3];
-    uint nodes, chunks;      // what it grew
-    uint taken;              // items that invocations have asked for
-    uint announced;          // items that ended chunks have pushed
-};
-STATIC_SIZE(Wave, 32);
-BUFFER(WaveBuf, Wave)
 
 // All that a kernel of expansion is handed, as push constants.
 struct ExpandEnv {

@@ -10,6 +10,7 @@
 #ifndef ESPALIER_SHARED_ROOF_RECORDS_H
 #define ESPALIER_SHARED_ROOF_RECORDS_H
 #include "shaders/shared/rule_map.h"
+#include "shaders/shared/waves.h"
 
 ESPALIER_BEGIN
 
@@ -181,12 +182,6 @@ struct RoofStatus {
 };
 STATIC_SIZE(RoofStatus, 64);
 
-struct RoofWave {
-    uint count;
-    uint groups[3];
-};
-STATIC_SIZE(RoofWave, 16);
-
 // What rules of a grammar do, as bits 1 << kRule... of their kinds and these. The kernel is specialised to what grammars
 // use, since a software device runs code for what none uses all the same.
 CONST_UINT(kRuleJoinRoof, 11u);    // kRuleJoin to the roof's own targets: here a kind of its own
@@ -221,7 +216,6 @@ BUFFER(RoofRunBuf, RoofRun)
 BUFFER(RoofMeshBuf, RoofMesh)
 BUFFER(RoofPlotBuf, RoofPlot)
 BUFFER(RoofStatusBuf, RoofStatus)
-BUFFER(RoofWaveBuf, RoofWave)
 BUFFER(Vec4Buf, vec4)
 
 // What the kernels read and write; all of it by address.
@@ -237,7 +231,7 @@ struct RoofEnv {
     RoofRunBuf runs;
     RoofMeshBuf meshes;
     RoofStatusBuf status;
-    RoofWaveBuf waves;
+    WaveBuf waves;
     RoofPlotBuf plots;        // [house]
     uint wave;
     uint shapeRoom, gridRoom, rowRoom, regionRoom, partRoom, planeRoom;

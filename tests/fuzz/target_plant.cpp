@@ -8,7 +8,8 @@
 #include "runtime/expand/frozen.hpp"
 #include "runtime/expand/growth_plan.hpp"
 #include "runtime/host/bind.hpp"
-#include "runtime/host/growth.hpp"
+#include "runtime/host/kernels.hpp"
+#include "shaders/expand/compact.h"
 #include "tests/fuzz/promise.hpp"
 
 namespace espalier::fuzz {
@@ -49,19 +50,21 @@ void takeFirst(GrowthRecords& both, const PlantRecords& first) {
 
 void closeGaps(GrowthRecords& records) {
     std::vector<uint32_t> nodesWent(records.nodes.size()), leavesWent(records.leaves.size());
-    GapClosing closing;
-    closing.nodes = records.nodes.data();
-    closing.leaves = records.leaves.data();
-    closing.chunks = records.chunks.data();
-    closing.nodesWent = nodesWent.data();
-    closing.leavesWent = leavesWent.data();
-    closing.chunkCount = uint32_t(records.chunks.size());
-    closing.nodeCount = uint32_t(records.nodes.size());
-    closing.leafCount = uint32_t(records.leaves.size());
+    GrowStatus now{};
+    CompactEnv env{};
+    env.nodes = env.toNodes = {records.nodes.data()};
+    env.leaves = env.toLeaves = {records.leaves.data()};
+    env.chunks = env.toChunks = {records.chunks.data()};
+    env.nodesWent = {nodesWent.data()};
+    env.leavesWent = {leavesWent.data()};
+    env.status = {&now};
+    env.chunkCount = uint32_t(records.chunks.size());
+    env.nodeCount = uint32_t(records.nodes.size());
+    env.leafCount = uint32_t(records.leaves.size());
     Crew crew(1);
-    closeGapsNative(closing, crew);
-    records.nodes.resize(closing.nodeCount);
-    records.leaves.resize(closing.leafCount);
+    hostKernel("expand/close_gaps")(&env, {crew});
+    records.nodes.resize(now.nodes);
+    records.leaves.resize(now.leaves);
 }
 
 // With a kind of bark and one of leaves.
