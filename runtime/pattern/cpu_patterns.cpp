@@ -1,18 +1,16 @@
-// The kernels' text on the CPU: native code of software devices, and the reference of tests.
+// The CPU reference of patterns: the same stages, over memory of its own.
 #include <chrono>
 
-#include "runtime/core/jobs.hpp"
 #include "runtime/pattern/pattern_room.hpp"
-#include "shaders/shared/pattern_decide.h"
+#include "runtime/pattern/pattern_stages.hpp"
+#include "runtime/run/host_runner.hpp"
 
 namespace espalier {
 namespace {
 
-constexpr size_t kGrain = 32;
-
 class CpuPatterns {
   public:
-    CpuPatterns(const PatternInputs& inputs, unsigned threads) : inputs_(inputs), crew_(threads) {}
+    CpuPatterns(const PatternInputs& inputs, unsigned threads) : inputs_(inputs), runner_(threads) {}
 
     Result<GrownPattern> run() {
         const auto begin = std::chrono::steady_clock::now();
@@ -23,7 +21,8 @@ class CpuPatterns {
             if (room_.holds(status_)) break;
             room_.grow(status_);
         }
-        sumHash();
+        StageList hash = patternHashStages({}, env_);
+        runner_.run(hash);
         GrownPattern grown =
             standingOf(std::span(pieces_).first(status_.pieces), std::span(sets_).first(status_.sets), status_);
         grown.stats.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
@@ -61,42 +60,16 @@ class CpuPatterns {
         env_.cellMask = room_.cells() - 1;
     }
 
-    template <class Work>
-    void each(uint32_t count, const Work& work) {
-        crew_.overRange(count, kGrain, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) work(env_, uint32_t(i));
-        });
-    }
-
     void derive() {
         makeRoom();
-        for (beginWave(env_); status_.wave > 0; beginWave(env_)) {
-            each(status_.wave, deriveItem);
-            if (!foundRoom(env_) || status_.pieces > inputs_.limits.maxPieces) return;
-            each(status_.pieces - status_.firstPiece, placePiece);
-            each(status_.pieces - status_.firstPiece, lookAround);
-            if (!foundRoom(env_)) return;
-            each(status_.pairs, meetPair);
-            if (!foundRoom(env_)) return;
-            while (!waveDecided(env_)) {
-                each(status_.sets - status_.firstSet, decideSet);
-                status_.rounds += 1;
-            }
-            each(status_.wave, goOn);
-            if (!foundRoom(env_)) return;
-        }
-    }
-
-    void sumHash() {
-        each(status_.pieces, [](const PatternEnv& env, uint32_t i) {
-            const uvec2 h = hashOfPiece(env, i);
-            atomicAdd(env.status.v[0].hash[0], h.x);
-            atomicAdd(env.status.v[0].hash[1], h.y);
-        });
+        do {
+            StageList waves = patternStages({}, env_);
+            runner_.run(waves);
+        } while (status_.wave > 0 && room_.holds(status_) && status_.pieces <= inputs_.limits.maxPieces);
     }
 
     const PatternInputs& inputs_;
-    Crew crew_;
+    HostRunner runner_;
     PatternRoom room_;
     PatternEnv env_{};
     PatternStatus status_{};

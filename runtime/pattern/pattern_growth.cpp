@@ -3,31 +3,10 @@
 #include "runtime/pattern/pattern_growth.hpp"
 
 #include <chrono>
-#include <cstddef>
-#include <cstring>
 
-#include "runtime/run/at_once.hpp"
+#include "runtime/machine/room.hpp"
 
 namespace espalier {
-namespace {
-
-constexpr uint32_t kWavesAhead = 12;  // recorded in one submission
-constexpr uint32_t kHashGroups = 64;
-
-}  // namespace
-
-Status PatternGrowth::makeKernels() {
-    if (derive_) return Done{};
-    const auto exact = [] { return exactly({}); };
-    return makeCompute(device_, {{begin_, "pattern/begin.comp", exact(), kPatternGroup},
-                                 {derive_, "pattern/derive.comp", exact(), kPatternGroup},
-                                 {place_, "pattern/place.comp", exact(), kPatternGroup},
-                                 {look_, "pattern/look.comp", exact(), kPatternGroup},
-                                 {meet_, "pattern/meet.comp", exact(), kPatternGroup},
-                                 {decide_, "pattern/decide.comp", exact(), kPatternGroup},
-                                 {goOn_, "pattern/go_on.comp", exact(), kPatternGroup},
-                                 {hash_, "pattern/hash.comp", exact(), kPatternGroup}});
-}
 
 Status PatternGrowth::makeRoom(const PatternInputs& inputs, std::span<const FieldRef> fieldTable) {
     room_.items = std::max(room_.items, uint32_t(inputs.seeds.size()));
@@ -37,7 +16,6 @@ Status PatternGrowth::makeRoom(const PatternInputs& inputs, std::span<const Fiel
         Buffer& buffer;
         const char* name;
         uint64_t bytes;
-        BufferUse use = BufferUse::device;
     } rows[] = {{items_, "pattern items", bytes(room_.items * size_t(kPatternPriorities), sizeof(PatternItem))},
                 {shapes_, "pattern shapes", bytes(room_.items, sizeof(PatternShape))},
                 {sets_, "pattern sets", bytes(room_.sets, sizeof(PatternSet))},
@@ -51,18 +29,13 @@ Status PatternGrowth::makeRoom(const PatternInputs& inputs, std::span<const Fiel
                 {status_, "pattern status", sizeof(PatternStatus)},
                 {env_, "pattern environment", sizeof(PatternEnv)},
                 {grammars_, "pattern grammars", bytes(inputs.grammars.size(), sizeof(RuleMapRef))},
-                {fields_, "pattern fields", bytes(fieldTable.size(), sizeof(FieldRef))},
-                {lanes_, "pattern lanes",
-                 uint64_t(patternGroups(std::max(room_.items, room_.pieces))) * kPatternGroup * kSlotWords * 4},
-                {readback_, "pattern readback", sizeof(PatternStatus), BufferUse::readback}};
-    for (const auto& row : rows) {
-        if (row.buffer.size() < row.bytes) row.buffer = {};
-        if (Status made = makeAtLeast(device_, row.buffer, row.name, row.bytes, row.use); !made) return made;
-    }
+                {fields_, "pattern fields", bytes(fieldTable.size(), sizeof(FieldRef))}};
+    for (const auto& row : rows)
+        if (Status made = ensureRoom(device_, row.buffer, row.name, row.bytes); !made) return made;
     return Done{};
 }
 
-Status PatternGrowth::upload(Commands& commands, const PatternInputs& inputs, std::span<const FieldRef> fieldTable) {
+PatternEnv PatternGrowth::environment(const PatternInputs& inputs) const {
     PatternEnv env{};
     env.surfaces = inputs.surfaces;
     env.layers = inputs.layers;
@@ -81,6 +54,16 @@ Status PatternGrowth::upload(Commands& commands, const PatternInputs& inputs, st
     env.status = addressOf<PatternStatusBuf>(status_);
     env.instances = inputs.surfaceCount;
     env.cellMask = room_.cells() - 1;
+    return env;
+}
+
+PatternShaders PatternGrowth::shaders() const {
+    const uint64_t groups = patternGroups(std::max(room_.items, room_.pieces));
+    return {env_.address(), &status_, groups * kPatternGroup * kSlotWords * 4};
+}
+
+Status PatternGrowth::upload(Commands& commands, const PatternInputs& inputs, std::span<const FieldRef> fieldTable,
+                             const PatternEnv& env) {
     const std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     const std::vector<FieldRef> fields(fieldTable.begin(), fieldTable.end());
     const PieceMeshes& meshes = *inputs.meshes;
@@ -92,63 +75,32 @@ Status PatternGrowth::upload(Commands& commands, const PatternInputs& inputs, st
                     commands.upload(env_, std::vector<PatternEnv>{env})});
 }
 
-void PatternGrowth::recordWaves(Commands& commands, uint32_t waves) {
-    Pass pass(commands, "patterns");
-    const uint64_t env = env_.address();
-    const auto next = [&] { pass.barrier(Use::compute | Use::indirect, Use::compute | Use::indirect); };
-    const auto indirect = [&](const Program& program, size_t groups, bool slots = false) {
-        slots ? pass.dispatchIndirect(program, status_, groups, env, {lanes_})
-              : pass.dispatchIndirect(program, status_, groups, env);
-        next();
-        ++dispatches_;
-    };
-    for (uint32_t w = 0; w < waves; ++w) {
-        pass.dispatch(begin_, {1, 1, 1}, env);
-        next();
-        ++dispatches_;
-        indirect(derive_, offsetof(PatternStatus, deriveGroups), true);
-        indirect(place_, offsetof(PatternStatus, pieceGroups), true);
-        indirect(look_, offsetof(PatternStatus, pieceGroups));
-        indirect(meet_, offsetof(PatternStatus, pairGroups));
-        for (uint32_t r = 0; r < kPatternRounds; ++r) indirect(decide_, offsetof(PatternStatus, setGroups));
-        indirect(goOn_, offsetof(PatternStatus, shapeGroups));
-    }
-}
-
-Result<PatternStatus> PatternGrowth::attempt(const PatternInputs& inputs, std::span<const FieldRef> fieldTable) {
+Result<PatternStatus> PatternGrowth::attempt(const PatternInputs& inputs, std::span<const FieldRef> fieldTable,
+                                             bool native) {
     if (Status made = makeRoom(inputs, fieldTable); !made) return made.failure();
+    const PatternEnv env = environment(inputs);
     for (bool first = true;; first = false) {
-        Result<Commands> commands = Commands::begin(device_, "patterns");
-        if (!commands) return commands.failure();
-        if (first) {
-            if (Status sent = upload(*commands, inputs, fieldTable); !sent) return sent.failure();
-            commands->barrier(Use::transfer, Use::compute | Use::indirect);
-        }
-        recordWaves(*commands, kWavesAhead);
-        commands->barrier(Use::compute, Use::transfer);
-        commands->copy(status_, readback_, sizeof(PatternStatus));
-        commands->barrier(Use::transfer, Use::host);
-        if (Status finished = commands->finish(); !finished) return finished.failure();
-        PatternStatus status;
-        std::memcpy(&status, readback_.mapped(), sizeof status);
+        Result<Run> run = Run::begin(runner_, "patterns", runner_.atOnce(native, status_));
+        if (!run) return run.failure();
+        if (first)
+            if (Status sent = upload(run->send(), inputs, fieldTable, env); !sent) return sent.failure();
+        run->readBack(status_, sizeof(PatternStatus));
+        if (Status added = run->add(patternStages(shaders(), env)); !added) return added.failure();
+        if (Status finished = run->finish(); !finished) return finished.failure();
+        dispatches_ += run->dispatches();
+        const PatternStatus status = *run->got<PatternStatus>(0);
         const bool done = status.wave == 0 || !room_.holds(status) || status.pieces > inputs.limits.maxPieces;
         if (done) return status;
     }
 }
 
-Result<GrownPattern> PatternGrowth::readBack() {
-    Result<Commands> commands = Commands::begin(device_, "patterns");
-    if (!commands) return commands.failure();
-    {
-        Pass pass(*commands, "patterns");
-        pass.dispatch(hash_, {kHashGroups, 1, 1}, env_.address());
-        pass.barrier(Use::compute, Use::transfer);
-    }
-    commands->copy(status_, readback_, sizeof(PatternStatus));
-    commands->barrier(Use::transfer, Use::host);
-    if (Status finished = commands->finish(); !finished) return finished.failure();
-    PatternStatus status;
-    std::memcpy(&status, readback_.mapped(), sizeof status);
+Result<GrownPattern> PatternGrowth::readBack(const PatternInputs& inputs, bool native) {
+    Result<Run> run = Run::begin(runner_, "patterns", runner_.atOnce(native, status_));
+    if (!run) return run.failure();
+    run->readBack(status_, sizeof(PatternStatus));
+    if (Status added = run->add(patternHashStages(shaders(), environment(inputs))); !added) return added.failure();
+    if (Status finished = run->finish(); !finished) return finished.failure();
+    const PatternStatus status = *run->got<PatternStatus>(0);
     Result<std::vector<PatternPiece>> pieces = readVector<PatternPiece>(device_, pieces_, 0, status.pieces);
     if (!pieces) return pieces.failure();
     Result<std::vector<PatternSet>> sets = readVector<PatternSet>(device_, sets_, 0, status.sets);
@@ -159,23 +111,15 @@ Result<GrownPattern> PatternGrowth::readBack() {
 Result<GrownPattern> PatternGrowth::grow(const PatternInputs& inputs, std::span<const FieldRef> fieldTable,
                                          bool native) {
     dispatches_ = 0;
-    if (Status made = makeAtLeast(device_, status_, "pattern status", sizeof(PatternStatus)); !made)
-        return made.failure();
-    if (runsAtOnce(device_, native, status_)) {
-        PatternInputs own = inputs;
-        own.fields.v = const_cast<FieldRef*>(fieldTable.data());
-        return growPatternsOnCpu(own);
-    }
     const auto begin = std::chrono::steady_clock::now();
-    if (Status made = makeKernels(); !made) return made.failure();
     while (true) {
-        Result<PatternStatus> status = attempt(inputs, fieldTable);
+        Result<PatternStatus> status = attempt(inputs, fieldTable, native);
         if (!status) return status.failure();
         if (Status within = withinLimits(*status, inputs.limits); !within) return within.failure();
         if (room_.holds(*status)) break;
         room_.grow(*status);
     }
-    Result<GrownPattern> grown = readBack();
+    Result<GrownPattern> grown = readBack(inputs, native);
     if (grown)
         grown->stats.ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     return grown;

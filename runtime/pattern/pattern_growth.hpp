@@ -4,10 +4,9 @@
 
 #include <memory>
 
-#include "runtime/gpu/buffer.hpp"
-#include "runtime/gpu/commands.hpp"
-#include "runtime/gpu/program.hpp"
 #include "runtime/pattern/pattern_room.hpp"
+#include "runtime/pattern/pattern_stages.hpp"
+#include "runtime/run/runner.hpp"
 
 namespace espalier {
 
@@ -22,20 +21,21 @@ class PatternGrowth {
     uint32_t dispatches() const { return dispatches_; }
 
   private:
-    explicit PatternGrowth(Device& device) : device_(device) {}
-    Status makeKernels();
+    explicit PatternGrowth(Device& device) : device_(device), runner_(device, "pattern") {}
     Status makeRoom(const PatternInputs& inputs, std::span<const FieldRef> fieldTable);
-    Status upload(Commands& commands, const PatternInputs& inputs, std::span<const FieldRef> fieldTable);
-    void recordWaves(Commands& commands, uint32_t waves);
+    Status upload(Commands& commands, const PatternInputs& inputs, std::span<const FieldRef> fieldTable,
+                  const PatternEnv& env);
+    PatternEnv environment(const PatternInputs& inputs) const;
+    PatternShaders shaders() const;
     // All waves with the room there is. The status tells whether that was enough.
-    Result<PatternStatus> attempt(const PatternInputs& inputs, std::span<const FieldRef> fieldTable);
-    Result<GrownPattern> readBack();
+    Result<PatternStatus> attempt(const PatternInputs& inputs, std::span<const FieldRef> fieldTable, bool native);
+    Result<GrownPattern> readBack(const PatternInputs& inputs, bool native);
 
     Device& device_;
-    Program begin_, derive_, place_, look_, meet_, decide_, goOn_, hash_;
+    Runner runner_;
     PatternRoom room_;
     Buffer items_, shapes_, sets_, pieces_, edges_, pairs_, cells_, meshes_, clusters_, corners_, status_, env_,
-        grammars_, fields_, lanes_, readback_;
+        grammars_, fields_;
     uint32_t dispatches_ = 0;
 };
 

@@ -4,6 +4,7 @@
 
 #include "runtime/expand/growth_stages.hpp"
 #include "runtime/host/kernels.hpp"
+#include "runtime/pattern/pattern_stages.hpp"
 #include "runtime/roof_growth/roof_stages.hpp"
 #include "runtime/run/hazards.hpp"
 #include "runtime/run/host_runner.hpp"
@@ -107,6 +108,8 @@ TEST_CASE("native code has each kernel that it may be handed") {
     std::vector<StageList> all = lists.ofGrowth();
     all.push_back(closingStages({}));
     all.push_back(roofStages({}, {}, 0, 1));
+    all.push_back(patternStages({}, {}));
+    all.push_back(patternHashStages({}, {}));
     GrowthLimits paper;
     paper.walk = WalkMode::paper;
     all.push_back(growthStages(lists.shaders, lists.env, {}, paper, 0, 1));
