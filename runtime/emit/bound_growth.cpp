@@ -173,7 +173,7 @@ BoundGrowth::Moved BoundGrowth::movedSince(const EmitInputs& inputs) const {
         moved.bits[i / 32] |= 1u << i % 32;
         moved.words = i / 32 + 1;
     }
-    if (moved.words > 0 && inputs.native && sharesMemory(*device_, cells_))
+    if (moved.words > 0 && runsAtOnce(*device_, inputs.native, cells_))
         moved.whole = movedShare(inputs.growth.nodes, inputs.growth.nodeCount, moved.bits) > kMost;
     return moved;
 }

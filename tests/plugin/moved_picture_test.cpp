@@ -49,7 +49,7 @@ struct Squares : Bare {
         return surface;
     }
     EspSeed plant(float x, float y = .3f, float z = 0) {
-        EspSeedDef def = espDefaultSeedDef();
+        EspSeedDef def = esp::defaults<EspSeedDef>();
         def.grammar = grammar;
         def.position[0] = x;
         def.position[1] = y;
@@ -63,13 +63,17 @@ struct Squares : Bare {
     void move(const EspTransform& to) { REQUIRE(espMoveSurface(context, moves, &to) == ESP_OK); }
 
     std::vector<uint8_t> draw() {
-        EspDrawDef def = espDefaultDrawDef();
+        EspLook look = esp::defaults<EspLook>();
+        look.shadows = shadows;
+        EspCamera camera = esp::defaults<EspCamera>();
+        EspDrawDef def = esp::defaults<EspDrawDef>();
         def.width = 240;
         def.height = 120;
-        def.look.shadows = shadows;
+        def.look = &look;
+        def.camera = &camera;
         const float eye[3] = {1.3f, .5f, 3}, target[3] = {1.3f, .5f, 0};
-        std::copy_n(eye, 3, def.camera.eye);
-        std::copy_n(target, 3, def.camera.target);
+        std::copy_n(eye, 3, camera.eye);
+        std::copy_n(target, 3, camera.target);
         REQUIRE_MESSAGE(espDraw(context, &def) == ESP_OK, espLastError(context));
         std::vector<uint8_t> pixels(size_t(def.width) * def.height * 4);
         REQUIRE(espReadPixels(context, pixels.data(), pixels.size()) == ESP_OK);
