@@ -60,6 +60,17 @@ TEST_CASE("the sample scene is drawn as the golden shows, in every run, whatever
     checkGolden("sample_640x360", frame(folder, "a"));
 }
 
+TEST_CASE("patterns are drawn as the golden shows") {
+    const Folder folder;
+    const Ran drawn = run("env ESPALIER_VALIDATION=1 " + program("espalier-capture") + " " + content("patterns.json") +
+                          " --size 640x360 -o " + folder.file("a") + " --stats " + folder.file("a.json"));
+    REQUIRE_MESSAGE(drawn.code == 0, drawn.output);
+    const nlohmann::json a = statsOf(folder.file("a.json"));
+    CHECK(a.at("validation_messages") == 0);
+    CHECK(a.at("patterns").at("pieces") > 3000);
+    checkGolden("patterns_640x360", frame(folder, "a"));
+}
+
 // A path wiped free, autumn painted over the arch, a longer parameter, a seed more, one less and again, evening, a
 // roof.
 TEST_CASE("a run of edits leads to what the goldens show") {

@@ -58,6 +58,7 @@ double cpuSeconds(const std::function<void()>& work);
 double median(std::vector<double> values);
 
 void growthCases(Bench& bench);
+void patternCases(Bench& bench);
 void editCases(Bench& bench);
 void emitCases(Bench& bench);
 void frameCases(Bench& bench);

@@ -40,6 +40,7 @@ int measureAsAsked(int argc, char** argv) {
         std::printf("device: %s (%s)\n", (*device)->info().name.c_str(), (*device)->info().driver.c_str());
     Bench bench(options);
     growthCases(bench);
+    patternCases(bench);
     editCases(bench);
     emitCases(bench);
     frameCases(bench);

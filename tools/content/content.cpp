@@ -7,6 +7,7 @@
 #include <deque>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "tools/content/forms.hpp"
 #include "tools/content/glb.hpp"
 #include "tools/content/leaf.hpp"
 #include "tools/content/noise.hpp"
@@ -150,6 +151,17 @@ Status writePieces(const Options& options) {
     return writeGlb(options.directory + "/pieces.glb", glb);
 }
 
+// Each form is a surface of its own.
+Status writeForms(const Options& options) {
+    for (const FormMeshes::Entry& e : makeForms().all) {
+        Glb glb;
+        glb.materials = {{"clay", -1, -1, 0.8f, 0, false, false}};
+        glb.meshes.push_back({e.name, &e.mesh, 0});
+        if (Status s = writeGlb(options.directory + "/" + e.name + ".glb", glb); !s) return s;
+    }
+    return Done{};
+}
+
 Status writeProps(const Options& options) {
     const PropMeshes meshes = makePropMeshes();
     Glb glb;
@@ -192,6 +204,8 @@ Status generate(const Options& options) {
         if (Status s = writeRoofMeshes(options); !s) return s;
     if (wanted("pieces"))
         if (Status s = writePieces(options); !s) return s;
+    if (wanted("forms"))
+        if (Status s = writeForms(options); !s) return s;
     if (wanted("props"))
         if (Status s = writeProps(options); !s) return s;
     return wanted("terminals") ? writeTerminals(options) : Status(Done{});

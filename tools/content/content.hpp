@@ -13,7 +13,7 @@ struct Options {
     std::string directory;         // of all files; made if missing
     std::string previewDirectory;  // empty: no pictures
     int textureSize = 2048;        // of the ruin, a power of two
-    std::string only = "";         // "ruin", "roofs", "pieces", "terminals" or "props"; empty: all
+    std::string only = "";         // "ruin", "roofs", "pieces", "forms", "terminals" or "props"; empty: all
     std::string town = "";         // houses that the site is laid out around; empty: no site.json and site.png
     std::string grammar = "";      // of these houses: where their doors are
 };

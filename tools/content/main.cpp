@@ -1,6 +1,6 @@
 // espalier-content OUT_DIR: generates Espalier's own sample content. In: nothing but options. Out: ruin.glb,
-// mask.png, ivy.png, terminals.glb, roofs.glb, props.glb; with --town FILE and --grammar FILE, site.json and site.png;
-// with --preview DIR, pictures.
+// mask.png, ivy.png, terminals.glb, roofs.glb, pieces.glb, cuirass.glb, vase.glb, knot.glb, props.glb; with --town FILE
+// and --grammar FILE, site.json and site.png; with --preview DIR, pictures.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -19,14 +19,16 @@ int makeAsAsked(int argc, char** argv) {
         "with --town also the site around it.",
         "espalier-content"};
     content::Options options;
-    app.add_option("OUT_DIR", options.directory,
-                   "folder for ruin.glb, its layers, terminals.glb, roofs.glb and props.glb; made if missing")
+    app.add_option(
+           "OUT_DIR", options.directory,
+           "folder for ruin.glb, its layers, terminals.glb, roofs.glb, pieces.glb, props.glb and forms for patterns; "
+           "made if missing")
         ->required();
     app.add_option("--preview", options.previewDirectory, "folder for pictures of what was made");
     app.add_option("--textures", options.textureSize, "texels a side of the ruin's textures")
         ->check(CLI::IsMember({256, 512, 1024, 2048, 4096}));
-    app.add_option("--only", options.only, "makes one of ruin, roofs, pieces, terminals, props instead of all")
-        ->check(CLI::IsMember({"ruin", "roofs", "pieces", "terminals", "props"}));
+    app.add_option("--only", options.only, "makes one of ruin, roofs, pieces, forms, terminals, props instead of all")
+        ->check(CLI::IsMember({"ruin", "roofs", "pieces", "forms", "terminals", "props"}));
     CLI::Option* town =
         app.add_option("--town", options.town, "houses that the site is laid out around, --only or not");
     town->needs(

@@ -129,7 +129,8 @@ Solid leafOf(int across, int up, float thick, const Solid::Point& point, const S
     return solid;
 }
 
-// A scale as of a fish or a roof: its root lies on the surface at x = -0.5, its round tip stands up a little at x = 0.5.
+// A scale as of a fish or a roof: its root lies on the surface at x = -0.5, its round tip stands up a little at x =
+// 0.5.
 Solid scale(int across, int up) {
     return leafOf(
         up, across, .05f,
@@ -174,8 +175,10 @@ Mesh blossom(int petals, int across, int up) {
         });
         append(mesh, petal.mesh);
     }
-    append(mesh, turnedBody(8, domeProfile(3, .2f), [](vec3 p) { return vec3(p.x * .3f, p.y * .3f, p.z + .04f); },
-                            [](float, float) { return .55f; }).mesh);
+    append(mesh, turnedBody(
+                     8, domeProfile(3, .2f), [](vec3 p) { return vec3(p.x * .3f, p.y * .3f, p.z + .04f); },
+                     [](float, float) { return .55f; })
+                     .mesh);
     return mesh;
 }
 
