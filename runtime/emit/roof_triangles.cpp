@@ -49,7 +49,7 @@ class GridWriter {
         drops_ = mayDrop(env, g_);
         const glm::vec2 plot = plotOf(env, g_.house);
         plot_ = {plot.x, 0, plot.y};
-        if (g_.region != kNoIndex) region_ = env.regions.v[g_.region];
+        if (g_.region != kNoIndex) region_ = env.regions.v[g_.region], space_ = cellSpace(g_, region_);
         const glm::vec3 root(float(g_.colour & 255u), float(g_.colour >> 8 & 255u), float(g_.colour >> 16 & 255u));
         colour_ = root * root / (255.0f * 255.0f);
     }
@@ -88,11 +88,11 @@ class GridWriter {
             else
                 for (uint32_t p = 0; p < region_.partCount; ++p) {
                     const RoofPart part = env_.parts.v[region_.firstPart + p];
-                    const uint32_t cuts = partCuts(env_, g_, region_, part, cellBox(g_, bounds, column, row));
+                    const uint32_t cuts = partCuts(env_, space_, part, cellBox(g_, bounds, column, row));
                     if (cuts == kPartMissed) continue;
                     Polygon piece = triangle;
                     for (uint32_t k = 0; k < kPartPlanes; ++k)
-                        if (cuts >> k & 1u) cut(piece, cellPlane(g_, region_, env_.planes.v[part.firstPlane + k]));
+                        if (cuts >> k & 1u) cut(piece, cellPlane(space_, env_.planes.v[part.firstPlane + k]));
                     write(std::move(piece), false);
                 }
         }
@@ -128,6 +128,7 @@ class GridWriter {
     RoofTriangles& out_;
     const TerminalLod* lod_ = nullptr;
     RoofRegion region_{};
+    CellSpace space_{};
     bool drops_ = false;
     glm::vec3 up_{}, colour_{}, plot_{};
 };

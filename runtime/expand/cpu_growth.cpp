@@ -19,7 +19,7 @@ struct Attempt {
     std::vector<Wave> waves;
 };
 
-Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const GrowthCut& cut) {
+Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const GrowthCut& cut, const March& march) {
     Attempt a;
     a.out.nodes.resize(room.nodes);
     a.out.chunks.resize(room.chunks);
@@ -56,9 +56,10 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     env.density = {density.data()};
     HostRunner plainly(1, true);
     StageList packing = tableStages({}, env, uint32_t(grammars.size()));
-    StageList growth =
-        growthStages({}, env, {{{even.data()}, {odd.data()}}}, inputs.limits, 0, uint32_t(a.waves.size()) - 1);
     plainly.run(packing);
+    const ItemQueues queues = {{{even.data()}, {odd.data()}}};
+    const uint32_t most = uint32_t(a.waves.size()) - 1, marched = march ? march(env, queues, most) : 0;
+    StageList growth = growthStages({}, env, queues, inputs.limits, marched, march ? marched : most);
     plainly.run(growth);
     a.waves.resize(wavesOf(a.waves) + 1);
     return a;
@@ -97,7 +98,7 @@ std::string decisionAt(const std::vector<Node>& a, const std::vector<Node>& b, f
 
 }  // namespace
 
-Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room) {
+Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room, const March& march) {
     Status usable = checkInputs(inputs);
     if (!usable) return usable.failure();
     room.items = std::max(room.items, uint32_t(inputs.seeds.size()));
@@ -105,7 +106,7 @@ Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room) {
     uint32_t overflow = 0, enlarged = 0;
     Verdict verdict = Verdict::impossible;
     while (overflow + enlarged < 48) {
-        Attempt a = attempt(inputs, room, cut);
+        Attempt a = attempt(inputs, room, cut, march);
         verdict = judge(a.status, a.waves, inputs.limits, room, cut);
         if (verdict == Verdict::impossible || verdict == Verdict::tooManyLeaves) break;
         if (verdict != Verdict::complete) {

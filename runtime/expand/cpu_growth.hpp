@@ -3,10 +3,11 @@
 // The CPU reference of expansion: the kernels' own text compiled as C++ (-ffp-contract=off), on one thread. It is the
 // debugger of growth and what the GPU's growth is compared with, by key.
 
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "runtime/expand/growth_data.hpp"
+#include "runtime/expand/growth_stages.hpp"
 
 namespace espalier {
 
@@ -14,9 +15,12 @@ struct CpuGrowth : GrowthRecords {
     GrowthStats stats;
 };
 
+// Grows waves [0, most) until one is empty, and returns which.
+using March = std::function<uint32_t(ExpandEnv env, const ItemQueues& queues, uint32_t most)>;
+
 // All addresses in `inputs` (surfaces, layers, rule maps) are pointers here. room: to begin with; what takes more is
-// grown again from the start, as on a GPU. Fails as Growth::grow does.
-Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room = {});
+// grown again from the start, as on a GPU. march: in place of the reference's own. Fails as Growth::grow does.
+Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room = {}, const March& march = {});
 
 // How two growths of the same inputs differ, branch by branch; for tests and reports.
 struct GrowthDifference {

@@ -55,8 +55,9 @@ struct DeviceInfo {
     DeviceTraits traits;
     uint32_t subgroupSize = 0;
     uint32_t queueFamily = 0;
-    float timestampNanoseconds = 0;  // 0: no timestamps
-    float maxAnisotropy = 1;         // 1: none
+    float timestampNanoseconds = 0;     // 0: no timestamps
+    float maxAnisotropy = 1;            // 1: none
+    bool maximalReconvergence = false;  // modules may be loaded with that mode
     uint64_t maxBufferBytes = 0;
     VkPhysicalDeviceLimits limits{};
 };

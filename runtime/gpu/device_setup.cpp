@@ -214,11 +214,27 @@ struct DeviceSetup {
         return Done{};
     }
 
+    // Asked for only where the extension is there: others needn't know the structure.
+    bool offersReconvergence() {
+        if (!hasExtension(deviceExtensions(d.vkInstance_, d.physicalDevice_), kReconvergenceExtension)) return false;
+        ReconvergenceFeature reconvergence;
+        VkPhysicalDeviceFeatures2 all{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &reconvergence, {}};
+        d.vkInstance_.vkGetPhysicalDeviceFeatures2(d.physicalDevice_, &all);
+        return reconvergence.shaderMaximalReconvergence == VK_TRUE;
+    }
+
     Status makeDevice() {
-        constexpr const char* kExtension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
+        std::vector<const char*> extensions = {VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
         Features have, enable;
         d.vkInstance_.vkGetPhysicalDeviceFeatures2(d.physicalDevice_, &have.core);
         chooseFeatures(have, enable);
+        ReconvergenceFeature reconvergence;
+        reconvergence.shaderMaximalReconvergence = offersReconvergence() ? VK_TRUE : VK_FALSE;
+        d.info_.maximalReconvergence = reconvergence.shaderMaximalReconvergence == VK_TRUE;
+        if (d.info_.maximalReconvergence) {
+            extensions.push_back(kReconvergenceExtension);
+            enable.v13.pNext = &reconvergence;
+        }
         d.info_.queueFamily = uint32_t(graphicsFamily(d.vkInstance_, d.physicalDevice_));
         const float priority = 1;
         VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -229,8 +245,8 @@ struct DeviceSetup {
         info.pNext = &enable.core;
         info.queueCreateInfoCount = 1;
         info.pQueueCreateInfos = &queue;
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &kExtension;
+        info.enabledExtensionCount = uint32_t(extensions.size());
+        info.ppEnabledExtensionNames = extensions.data();
         const VkResult result = d.vkInstance_.vkCreateDevice(d.physicalDevice_, &info, nullptr, &d.device_);
         if (result != VK_SUCCESS)
             return Failure(kPlace, "the device could not be opened (VkResult " + std::to_string(int(result)) + ")");
@@ -346,6 +362,7 @@ Result<std::unique_ptr<Device>> Device::adopt(const HostDevice& host) {
     Features enabled;
     if (host.made) readFeatures(*host.made, enabled);
     d.info_.maxAnisotropy = enabled.core.features.samplerAnisotropy ? kMostAnisotropy : 1;
+    d.info_.maximalReconvergence = host.made && hasReconvergence(*host.made);
     if (auto missing = loadInstanceFunctions(d.vkInstance_, host.getInstanceProcAddr, host.instance); !missing.empty())
         return Failure(kPlace, "the host's instance lacks " + missing);
     if (Candidate c = examine(d.vkInstance_, host.physicalDevice); !c.unfit.empty())

@@ -16,7 +16,6 @@ DeviceTraits traitsOf(bool cpu) {
     traits.sortLanes = 8;
     traits.wideGroups = false;
     traits.lazyMemory = true;
-    traits.fetchesTexels = true;
     // and for each group; but lavapipe ends loops after some 65,000 trips (see kMaxTrips).
     traits.leastGroups = std::clamp(8 * std::thread::hardware_concurrency(), 16u, 64u);
     traits.itemsOfGroup = 512;

@@ -15,7 +15,6 @@ struct DeviceTraits {
     uint32_t sortLanes = 64;  // lanes that put a cell's bins in order
     bool wideGroups = true;   // groups of as many lanes as there may be pay
     bool lazyMemory = false;  // memory costs nothing until it is touched
-    bool fetchesTexels = false;  // records are read as texels sooner than by address
     // Of a pass whose kernels go through items by themselves; itemsOfGroup 0: any number of items.
     uint32_t leastGroups = 1024, itemsOfGroup = 0;
 

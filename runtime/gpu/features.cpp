@@ -67,6 +67,13 @@ void take(Struct& to, const VkBaseInStructure* link) {
 
 }  // namespace
 
+bool hasReconvergence(const VkDeviceCreateInfo& made) {
+    for (auto link = static_cast<const VkBaseInStructure*>(made.pNext); link; link = link->pNext)
+        if (link->sType == ReconvergenceFeature{}.sType)
+            return as<ReconvergenceFeature>(link).shaderMaximalReconvergence == VK_TRUE;
+    return false;
+}
+
 void readFeatures(const VkDeviceCreateInfo& made, Features& out) {
     if (made.pEnabledFeatures) out.core.features = *made.pEnabledFeatures;
     for (auto link = static_cast<const VkBaseInStructure*>(made.pNext); link; link = link->pNext) {

@@ -23,10 +23,20 @@ struct Features {
     Features& operator=(const Features&) = delete;
 };
 
+// VK_KHR_shader_maximal_reconvergence, which the headers of older systems lack.
+constexpr const char* kReconvergenceExtension = "VK_KHR_shader_maximal_reconvergence";
+struct ReconvergenceFeature {
+    VkStructureType sType = VkStructureType(1000434000);
+    void* pNext = nullptr;
+    VkBool32 shaderMaximalReconvergence = VK_FALSE;
+};
+
 // Names of the required features that `have` lacks.
 std::vector<std::string> missingFeatures(const Features& have);
 // What a device was made with, by any of the structs that say so.
 void readFeatures(const VkDeviceCreateInfo& made, Features& out);
+// Whether it was made with maximal reconvergence.
+bool hasReconvergence(const VkDeviceCreateInfo& made);
 // Sets in `enable` what is required, and anisotropic filtering where it is there.
 void chooseFeatures(const Features& have, Features& enable);
 

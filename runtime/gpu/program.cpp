@@ -23,8 +23,9 @@ class LoadedModule {
         Result<ShaderInterface> interface = reflect(name, code, options.constants);
         if (!interface) return interface.failure();
         LoadedModule m(device, std::move(*interface));
-        std::vector<uint32_t> exact;
+        std::vector<uint32_t> exact, together;
         if (options.exact) code = exact = withoutContraction(code);
+        if (device.info().maximalReconvergence) code = together = reconverged(code);
         VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
         info.codeSize = code.size_bytes();
         info.pCode = code.data();

@@ -1,7 +1,9 @@
-// SPIR-V words in, what a pipeline layout needs out; and the decoration that keeps float arithmetic as written.
+// SPIR-V words in, what a pipeline layout needs out; the decoration that keeps float arithmetic as written, and the
+// mode that brings lanes together again.
 #include "runtime/gpu/spirv.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <set>
 #include <spirv/unified1/spirv.hpp11>
@@ -357,6 +359,34 @@ std::vector<uint32_t> withoutContraction(std::span<const uint32_t> code) {
     std::vector<uint32_t> out(code.begin(), code.begin() + ptrdiff_t(insertAt));
     out.insert(out.end(), decorations.begin(), decorations.end());
     out.insert(out.end(), code.begin() + ptrdiff_t(insertAt), code.end());
+    return out;
+}
+
+std::vector<uint32_t> reconverged(std::span<const uint32_t> code) {
+    constexpr std::string_view kExtension = "SPV_KHR_maximal_reconvergence";
+    constexpr uint32_t kMaximallyReconverges = 6023;
+    uint32_t entry = 0;
+    bool shares = false, done = false;
+    size_t behindCapabilities = kHeaderWords, behindEntry = kHeaderWords;
+    forEachInstruction(code, [&](const Instruction& in, size_t at) {
+        const size_t behind = at + in.size();
+        if (in.op == spv::Op::OpCapability) {
+            behindCapabilities = behind;
+            shares = shares || (in.size() > 1 && in[1] >= uint32_t(spv::Capability::GroupNonUniform) &&
+                                in[1] <= uint32_t(spv::Capability::GroupNonUniformQuad));
+        }
+        if (in.op == spv::Op::OpEntryPoint) entry = in[2], behindEntry = behind;
+        if (in.op == spv::Op::OpExecutionMode) done = done || in[2] == kMaximallyReconverges;
+    });
+    if (!shares || done) return {code.begin(), code.end()};
+    std::vector<uint32_t> extension(1 + kExtension.size() / 4 + 1);
+    extension[0] = uint32_t(extension.size()) << 16 | uint32_t(spv::Op::OpExtension);
+    std::memcpy(&extension[1], kExtension.data(), kExtension.size());
+    std::vector<uint32_t> out(code.begin(), code.begin() + ptrdiff_t(behindCapabilities));
+    out.insert(out.end(), extension.begin(), extension.end());
+    out.insert(out.end(), code.begin() + ptrdiff_t(behindCapabilities), code.begin() + ptrdiff_t(behindEntry));
+    out.insert(out.end(), {3u << 16 | uint32_t(spv::Op::OpExecutionMode), entry, kMaximallyReconverges});
+    out.insert(out.end(), code.begin() + ptrdiff_t(behindEntry), code.end());
     return out;
 }
 

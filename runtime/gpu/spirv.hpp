@@ -45,4 +45,9 @@ Result<ShaderInterface> reflect(std::string_view name, std::span<const uint32_t>
 // must have passed reflect().
 std::vector<uint32_t> withoutContraction(std::span<const uint32_t> code);
 
+// The module with the mode in which lanes of a subgroup that have parted meet again where their ways meet
+// (VK_KHR_shader_maximal_reconvergence), if it has operations of subgroups; else as it is. `code` must have passed
+// reflect().
+std::vector<uint32_t> reconverged(std::span<const uint32_t> code);
+
 }  // namespace espalier

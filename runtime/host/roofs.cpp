@@ -1,23 +1,34 @@
-// In: the shapes of a wave. Out: shapes of the next wave, grids and their rows' runs.
+// In: the shapes of a wave. Out: shapes of the next wave, grids and their rows' runs. Shapes of a wave are taken by
+// whichever thread is free, so that records' order differs between runs of several threads, as on a GPU.
 #include "runtime/host/kernels.hpp"
 #include "shaders/shared/roof_expand.h"
+#include "shaders/shared/roof_rows.h"
 
 namespace espalier {
 namespace {
 
-constexpr size_t kShapesAtOnce = 256;
+constexpr size_t kAtOnce = 256;
 
-// env.shapes are this wave's shapes, and env.next has room for the next wave's.
 bool derive(RoofEnv env, const HostRun& run) {
-    run.crew.overRange(shapesToDerive(env), kShapesAtOnce, [&](size_t begin, size_t end) {
-        RoofTally tally = emptyTally();
-        for (size_t i = begin; i < end; ++i) deriveShape(env, uint32_t(i), tally);
-        addTally(env.status.v[0], tally);
+    RoofLane any;
+    any.env = env;
+    run.crew.overRange(shapesToDerive(any), kAtOnce, [&](size_t begin, size_t end) {
+        RoofLane lane;
+        lane.env = env;
+        for (size_t i = begin; i < end; ++i) deriveShape(lane, uint32_t(i));
     });
     return env.waves.v[env.wave].count > 0;
 }
 
-constexpr HostRow kRows[] = {{"roof_growth/derive.comp", waveOf<RoofEnv, derive>}};
+void finishRows(RoofEnv env, const HostRun& run) {
+    run.crew.overRange(gridsToFinish(env), kAtOnce, [&](size_t begin, size_t end) {
+        LoneLane lane;
+        finishGrids(lane, env, uint(begin), uint(end), 1);
+    });
+}
+
+constexpr HostRow kRows[] = {{"roof_growth/derive.comp", waveOf<RoofEnv, derive>},
+                             {"roof_growth/rows.comp", passOf<RoofEnv, finishRows>}};
 
 }  // namespace
 

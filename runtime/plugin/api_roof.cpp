@@ -126,6 +126,7 @@ EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
     inputs.grammar = &grammar.map;
     inputs.grammarRevision = grammar.version;
     inputs.meshes = context.roofBounds;
+    inputs.native = !context.grow.shadersOnly;
     bindTownLayers(context, inputs);
     std::vector<ContextInfo> contexts = grammar.map.contexts();
     Status grown = Done{};

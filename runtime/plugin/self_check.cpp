@@ -139,6 +139,7 @@ Status growRoof(Device& device, Renderer& renderer, Roof& roof) {
     if (!rules) return rules.failure();
     roof.rules = std::move(*rules);
     RoofInputs inputs;
+    inputs.native = false;
     inputs.town = &roof.house;
     inputs.grammar = &roof.rules;
     inputs.meshes = *meshes;

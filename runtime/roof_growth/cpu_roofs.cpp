@@ -93,7 +93,7 @@ struct CpuRun {
         scopes[0].resize(room.scopes);
         scopes[1].resize(room.scopes);
         out.records.plots = t.plots;
-        waves = wavesBefore(kMaxRoofDepth + 2, uint32_t(starts.size()), 0);
+        waves = wavesBefore(kRoofWaves, uint32_t(starts.size()), 0);
         out.status = {};
         out.status.regions = uint32_t(t.regions.size());
         out.status.parts = uint32_t(t.parts.size());
@@ -105,6 +105,7 @@ struct CpuRun {
         env.regions.v = out.records.regions.data();
         env.parts.v = out.records.parts.data();
         env.planes.v = out.records.planes.data();
+        for (int i : {0, 1}) env.queues[i].v = scopes[i].data();
         env.grids.v = out.records.grids.data();
         env.runs.v = out.records.runs.data();
         env.meshes.v = const_cast<RoofMesh*>(in.meshes.data());
@@ -130,12 +131,10 @@ struct CpuRun {
         return env;
     }
     // The widest wave.
-    uint32_t derive(RoofEnv env, unsigned threads) {
-        env.shapes.v = scopes[0].data();
-        env.next.v = scopes[1].data();
-        StageList stages = roofStages({}, env, 0, kMaxRoofDepth + 1);
+    uint32_t derive(const RoofEnv& env, unsigned threads) {
+        StageList stages = roofStages({}, env, 0, kRoofWaves - 1);
         HostRunner(threads, true).run(stages);
-        const std::span<const Wave> run = std::span(waves).first(kMaxRoofDepth + 1);
+        const std::span<const Wave> run = std::span(waves).first(kRoofWaves - 1);
         out.waves = wavesOf(run);
         return widestOf(run);
     }

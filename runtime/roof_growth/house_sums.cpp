@@ -2,7 +2,7 @@
 // what has been replaced. Kernels count all that they write; what a house had before it grew anew is known only from
 // its records, which are read back once after all houses have grown, when the first of them grows alone.
 #include "runtime/roof_growth/roof_growth.hpp"
-#include "shaders/shared/roof_expand.h"
+#include "shaders/shared/roof_rows.h"
 
 namespace espalier {
 

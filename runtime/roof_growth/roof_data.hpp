@@ -12,6 +12,8 @@
 
 namespace espalier {
 
+constexpr uint32_t kRoofWaves = kMaxRoofDepth + 2;
+
 // Everything that roofs grow from. Pointers stay valid during the call.
 struct RoofInputs {
     const RoofTables* town = nullptr;
@@ -36,7 +38,9 @@ struct RoofInputs {
     using Means = std::array<float, kRoofLayers>;
     Means meansOf(size_t house) const;
     std::vector<float> filledMeans(size_t houses) const;
-    bool fetch = true;  // software devices read records as texels; false: by address, as others do
+    // True: on a software device whose addresses are the process's own, roofs grow as native code on its cores, with
+    // the same result. False: as shaders there too.
+    bool native = true;
 };
 
 // What drawing reads. Buffers belong to RoofGrowth and change only in its calls.
@@ -67,7 +71,8 @@ struct RoofStats {
     uint64_t bytes = 0;        // of grids, runs and the regions that Join made
     uint64_t reservedBytes = 0;
     uint64_t hash = 0;    // of all grids that are drawn, independent of their order: what a growth of all would give
-    double expandMs = 0;  // GPU time of the latest expansion; of a few houses that the CPU grows, its time
+    bool native = false;  // the latest expansion of all houses, or of many, ran as native code
+    double expandMs = 0;  // GPU time of the latest expansion; of native code, its time
 };
 
 struct RoofRecords {

@@ -10,6 +10,7 @@
 #include "runtime/core/undo.hpp"
 #include "runtime/roof_growth/house_tables.hpp"
 #include "runtime/roof_growth/roof_growth.hpp"
+#include "shaders/shared/roof_lane.h"
 #include "shaders/shared/roof_tables.h"
 
 namespace espalier {
@@ -22,6 +23,14 @@ constexpr size_t kFewHouses = 32;  // that the CPU grows in less time than submi
 constexpr uint32_t kCommonRules = 1u << kRuleNull | 1u << kRuleExtrude | 1u << kRuleJoinRoof | 1u << kRuleRepeat |
                                   1u << kRuleScope | 1u << kRuleShape;
 constexpr uint32_t kRareRules = 1u << kRuleJoin | 1u << kRuleProject | 1u << kRuleExplode | 1u << kRuleSplit;
+
+// The grids so far stand, and their rows are worked out.
+void noGridsWait(RoofStatus& status) {
+    status.firstGrid = status.grids;
+    const uint32_t none[] = {0, 1, 1};
+    std::copy_n(none, 3, status.gridGroups);
+}
+
 }  // namespace
 
 Status RoofGrowth::setUp() {
@@ -29,9 +38,9 @@ Status RoofGrowth::setUp() {
 }
 
 // Kernels are made for what the grammar uses.
-void RoofGrowth::noticeKind(const RuleMap& grammar, bool fetches) {
+void RoofGrowth::noticeKind(const RuleMap& grammar) {
     const RuleMapRef map = grammar.ref();
-    Kind kind{words_.size() > kUniformMapWords * 4, !fetches, kind_.uses};
+    Kind kind{words_.size() > kUniformMapWords * 4, kind_.uses};
     for (uint32_t i = 0; i < map.ruleCount; ++i) {
         kind.uses |= 1u << roofKind(map.rules.v[i]);
         if (map.rules.v[i].startLayers) kind.uses |= kRoofUsesLayers;
@@ -51,8 +60,7 @@ RoofEnv RoofGrowth::environment(const RoofInputs& inputs, const Set& set) const 
     env.regions = addressOf<RoofRegionBuf>(set.regions.buffer);
     env.parts = addressOf<RoofPartBuf>(set.parts.buffer);
     env.planes = addressOf<Vec4Buf>(set.planes.buffer);
-    env.shapes = addressOf<RoofScopeBuf>(scopes_[0]);
-    env.next = addressOf<RoofScopeBuf>(scopes_[1]);
+    for (int i : {0, 1}) env.queues[i] = addressOf<RoofScopeBuf>(scopes_[i]);
     env.grids = addressOf<RoofGridBuf>(set.grids);
     env.runs = addressOf<RoofRunBuf>(set.runs);
     env.meshes = addressOf<RoofMeshBuf>(meshes_);
@@ -75,46 +83,40 @@ RoofEnv RoofGrowth::environment(const RoofInputs& inputs, const Set& set) const 
     return env;
 }
 
-// All that the first wave's kernels read. Returns what they are bound to.
-Result<RoofGrowth::Texels> RoofGrowth::send(Commands& commands, const RoofInputs& inputs, Set& set,
-                                            std::span<const uint32_t> houses, const RoofStatus& status) {
-    if (Status s = uploadGrammar(commands, inputs); !s) return s.failure();
-    if (Status s = uploadTables(commands, *inputs.town, set); !s) return s.failure();
-    if (Status s = uploadStarts(commands, *inputs.town, houses); !s) return s.failure();
-    if (Status s = uploadHouses(commands, inputs, set, houses); !s) return s.failure();
-    if (Status s = uploadLayers(commands, inputs, set); !s) return s.failure();
+// All that the first wave's kernels read.
+Status RoofGrowth::send(Commands& commands, const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
+                        RoofStatus status) {
+    if (Status s = uploadGrammar(commands, inputs); !s) return s;
+    if (Status s = uploadTables(commands, *inputs.town, set); !s) return s;
+    if (Status s = uploadStarts(commands, *inputs.town, houses); !s) return s;
+    if (Status s = uploadHouses(commands, inputs, set, houses); !s) return s;
+    if (Status s = uploadLayers(commands, inputs, set); !s) return s;
     room_.scopes = std::max(room_.scopes, startCount_);
     for (Buffer& scopes : scopes_)
         if (Status s = ensure(scopes, "roof scopes", room_.scopes * sizeof(RoofScope)); !s) return s.failure();
 
-    const std::vector<Wave> waves = wavesBefore(kRoofWaves, startCount_, (startCount_ + kRoofGroup - 1) / kRoofGroup);
+    const uint32_t groups = std::min((startCount_ + kRoofGroup - 1) / kRoofGroup, kRoofLaneGroups);
+    const std::vector<Wave> waves = wavesBefore(kRoofWaves, startCount_, groups);
+    noGridsWait(status);
     const RoofEnv env = environment(inputs, set);
     if (Status s =
             allDone({commands.upload(waves_, waves), commands.upload(status_, std::as_bytes(std::span(&status, 1))),
                      commands.upload(env_, std::as_bytes(std::span(&env, 1)))});
         !s)
         return s.failure();
-    const bool fetches = mayFetch(inputs, set);
-    noticeKind(*inputs.grammar, fetches);
-    return viewRecords(set, fetches);
+    noticeKind(*inputs.grammar);
+    return Done{};
 }
 
-RoofShaders RoofGrowth::shaders(const Texels& texels) const {
+RoofShaders RoofGrowth::shaders() const {
     RoofShaders s;
     s.waves = &waves_;
-    s.constants = {{kConstantTablesByAddress, kind_.mapByAddress},
-                   {kConstantRoofUses, kind_.uses},
-                   {kConstantRecordsByAddress, kind_.recordsByAddress}};
-    for (int odd : {0, 1})
-        s.bindings[odd] = {env_,
-                           map_,
-                           kind_.mapByAddress ? noWords_ : words_,
-                           texels.atoms,
-                           texels.regions,
-                           texels.pieces,
-                           texels.shapes[odd],
-                           texels.parts,
-                           texels.planes};
+    s.status = &status_;
+    s.constants = {{kConstantTablesByAddress, kind_.mapByAddress}, {kConstantRoofUses, kind_.uses}};
+    s.derive = {env_, map_, kind_.mapByAddress ? noWords_ : words_};
+    s.rows = {env_};
+    const uint32_t lanes = std::min((room_.scopes + kRoofGroup - 1) / kRoofGroup * kRoofGroup, kMostLanes);
+    s.laneBytes = uint64_t(lanes) * kRoofLaneWords * 4;
     return s;
 }
 
@@ -127,6 +129,7 @@ void RoofGrowth::readBack(Run& run) const {
 
 // Returns whether shapes wait for wave `last`.
 bool RoofGrowth::take(const Run& run, uint32_t last, Outcome& outcome) {
+    outcome.native = run.atOnce();
     outcome.ms += run.milliseconds("roof expand");
     outcome.status = *run.got<RoofStatus>(0);
     const std::span<const Wave> waves(run.got<Wave>(1), kRoofWaves);
@@ -140,16 +143,22 @@ Result<RoofGrowth::Outcome> RoofGrowth::expand(const RoofInputs& inputs, Set& se
                                                const RoofStatus& status) {
     if (houses.empty())
         if (Status s = makeRoom(set); !s) return s.failure();
-    Texels texels;
-    const auto add = [&](Run& run, uint32_t first, uint32_t last) -> Status {
-        if (first == 0)
-            if (Status s = assign(texels, send(run.send(), inputs, set, houses, status)); !s) return s;
-        readBack(run);
-        return run.add(roofStages(shaders(texels), environment(inputs, set), first, last));
-    };
     Outcome outcome;
+    const auto add = [&](Run& run, uint32_t first, uint32_t last) -> Status {
+        if (first == 0) {
+            if (Status s = send(run.send(), inputs, set, houses, status); !s) return s;
+        } else {
+            // Rows of the grids of earlier waves are worked out.
+            RoofStatus so = outcome.status;
+            noGridsWait(so);
+            if (Status s = run.send().upload(status_, std::as_bytes(std::span(&so, 1))); !s) return s;
+        }
+        readBack(run);
+        return run.add(roofStages(shaders(), environment(inputs, set), first, last));
+    };
     const auto waitsStill = [&](const Run& run, uint32_t last) -> Result<bool> { return take(run, last, outcome); };
-    if (Status s = runWaves(runner_, "roofs", false, wavesAhead_, kRoofWaves - 1, add, waitsStill); !s)
+    const bool atOnce = runner_.atOnce(inputs.native, status_);
+    if (Status s = runWaves(runner_, "roofs", atOnce, wavesAhead_, kRoofWaves - 1, add, waitsStill); !s)
         return s.failure();
     outcome.complete = true;
     wavesAhead_ = std::clamp(houses.empty() ? outcome.waves : std::max(wavesAhead_, outcome.waves), 1u, kRoofWaves - 1);
@@ -213,6 +222,7 @@ void RoofGrowth::publish(const RoofInputs& inputs, const Outcome& outcome, std::
     stats_.stopped = last_.stopped;
     stats_.expansions += 1;
     stats_.hash = uint64_t(last_.hash[1] - replaced_.hash[1]) << 32 | (last_.hash[0] - replaced_.hash[0]);
+    stats_.native = outcome.native;
     stats_.expandMs = outcome.ms;
     stats_.bytes = uint64_t(last_.grids) * sizeof(RoofGrid) + uint64_t(last_.rows) * sizeof(RoofRun) +
                    (last_.regions - own_.regions) * sizeof(RoofRegion) + (last_.parts - own_.parts) * sizeof(RoofPart) +

@@ -1,7 +1,8 @@
 #pragma once
 
 // RoofGrowth on the GPU: its buffers and kernels. roof_growth.cpp expands, roof_upload.cpp sends what that reads,
-// few_roofs.cpp grows a few houses on the CPU, house_sums.cpp counts what houses have drawn.
+// roof_stages.cpp lists the kernels, few_roofs.cpp grows a few houses on the CPU, house_sums.cpp counts what houses
+// have drawn.
 
 #include <map>
 #include <span>
@@ -16,8 +17,6 @@
 #include "runtime/roof_growth/roof_stages.hpp"
 
 namespace espalier {
-
-constexpr uint32_t kRoofWaves = kMaxRoofDepth + 2;
 
 class RoofGrowth {
   public:
@@ -63,6 +62,7 @@ class RoofGrowth {
         RoofStatus status;
         uint32_t waves = 0, widest = 0;
         bool complete = false;  // it has found room
+        bool native = false;
         double ms = 0;
         // Of a few houses, as they are sent.
         std::vector<RoofGrid> grids;
@@ -77,10 +77,6 @@ class RoofGrowth {
             for (int i : {0, 1}) hash[i] += s.hash[i];
             return *this;
         }
-    };
-    // Records as the kernels of one expansion fetch them.
-    struct Texels {
-        TexelView atoms, regions, pieces, shapes[2], parts, planes;
     };
     // Records of the town's tables, with room for houses that change.
     struct Counts {
@@ -100,7 +96,7 @@ class RoofGrowth {
     };
     // What kernels are specialised to. `uses` only grows, so that edits seldom make a kernel.
     struct Kind {
-        bool mapByAddress = false, recordsByAddress = false;
+        bool mapByAddress = false;
         uint32_t uses = 0;
         bool operator==(const Kind&) const = default;
     };
@@ -108,12 +104,10 @@ class RoofGrowth {
         glm::vec3 low{1e9f}, high{-1e9f};
     };
 
-    void noticeKind(const RuleMap& grammar, bool fetches);
+    void noticeKind(const RuleMap& grammar);
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes);
     Status ensure(Table& table, const char* name, uint64_t bytes);
     Status makeRoom(Set& set);
-    Result<Texels> viewRecords(const Set& set, bool fetches) const;
-    bool mayFetch(const RoofInputs& inputs, const Set& set) const;
     void noticeTown(const RoofInputs& inputs);
     // Nothing is known to have been sent of tables and layers.
     void forgetTables();
@@ -130,9 +124,9 @@ class RoofGrowth {
     // houses: those to grow, none: all.
     Result<Outcome> expand(const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
                            const RoofStatus& status);
-    Result<Texels> send(Commands& commands, const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
-                        const RoofStatus& status);
-    RoofShaders shaders(const Texels& texels) const;
+    Status send(Commands& commands, const RoofInputs& inputs, Set& set, std::span<const uint32_t> houses,
+                RoofStatus status);
+    RoofShaders shaders() const;
     void readBack(Run& run) const;
     bool take(const Run& run, uint32_t last, Outcome& outcome);
     // On the CPU, sent behind what the published set holds. Not complete: there is no room for it.

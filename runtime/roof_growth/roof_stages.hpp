@@ -9,12 +9,13 @@ namespace espalier {
 
 // What shaders ask for beside RoofEnv; as it is, nothing: of a list for native code alone.
 struct RoofShaders {
-    const Buffer* waves = nullptr;  // RoofEnv's: they hold numbers of groups
-    std::vector<SpecConstant> constants;
-    std::vector<Binding> bindings[2];  // of even waves and of odd ones
+    const Buffer *waves = nullptr, *status = nullptr;  // RoofEnv's: they hold numbers of groups
+    std::vector<SpecConstant> constants;               // of derivation
+    std::vector<Binding> derive, rows;
+    uint64_t laneBytes = 0;  // of derivation
 };
 
-// Derives waves [first, last). env.shapes: of even waves; env.next: of odd ones.
+// Derives waves [first, last), then works out the rows of the grids that are new.
 StageList roofStages(const RoofShaders& shaders, const RoofEnv& env, uint32_t first, uint32_t last);
 
 }  // namespace espalier

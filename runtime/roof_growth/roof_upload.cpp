@@ -196,30 +196,4 @@ Status RoofGrowth::uploadPlot(Commands& commands, const Set& set, uint32_t house
                            house * sizeof(RoofPlot));
 }
 
-bool RoofGrowth::mayFetch(const RoofInputs& inputs, const Set& set) const {
-    const uint64_t most = 16ull * device_.info().limits.maxTexelBufferElements;
-    bool may = inputs.fetch && device_.info().traits.fetchesTexels;
-    for (const Buffer* b : {&atoms_.buffer, &pieces_.buffer, &scopes_[0], &scopes_[1], &set.regions.buffer,
-                            &set.parts.buffer, &set.planes.buffer})
-        may = may && b->size() >= 16 && b->size() <= most;
-    return may;
-}
-
-// Kernels that read by address need a view in any case.
-Result<RoofGrowth::Texels> RoofGrowth::viewRecords(const Set& set, bool fetches) const {
-    Texels t;
-    const struct {
-        TexelView& view;
-        const Buffer& buffer;
-    } rows[] = {{t.atoms, atoms_.buffer},     {t.regions, set.regions.buffer}, {t.pieces, pieces_.buffer},
-                {t.shapes[0], scopes_[0]},    {t.shapes[1], scopes_[1]},       {t.parts, set.parts.buffer},
-                {t.planes, set.planes.buffer}};
-    for (const auto& [view, buffer] : rows) {
-        Result<TexelView> made = TexelView::create(device_, fetches ? buffer : noWords_, VK_FORMAT_R32G32B32A32_UINT);
-        if (!made) return made.failure();
-        view = std::move(*made);
-    }
-    return t;
-}
-
 }  // namespace espalier

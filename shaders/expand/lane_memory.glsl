@@ -1,10 +1,13 @@
 // What a lane of the march keeps in its memory while it walks.
 #ifndef ESPALIER_EXPAND_LANE_MEMORY_GLSL
 #define ESPALIER_EXPAND_LANE_MEMORY_GLSL
+#ifndef __cplusplus
 #define ESPALIER_LANES
+#define LANE_BINDING 1
 #define LANE_SLOTS kLaneSlots
-#define LANE_WORDS kLaneWords
-#include "shaders/expand/lane_slots.glsl"   // before what uses slots
+#include "shaders/shared/lane_slots.glsl"   // before what uses slots
+#define THIS_LANE
+#endif
 #include "shaders/expand/lane_words.h"
 
 WalkState laneWalk(uint first) {
@@ -13,8 +16,10 @@ WalkState laneWalk(uint first) {
     return w;
 }
 void keepWalk(WalkState w, uint first) { KEEP_WalkState(w, LANE_WORD, first) }
+#ifndef __cplusplus
 #define STAND(g) laneWalk(kLaneStand)
 #define KEEP_STAND(g) keepWalk((g).trial, kLaneStand)
+#endif
 
 GrowthSite laneSite() {
     GrowthSite s = {};
@@ -35,6 +40,9 @@ Grower laneGrower() {
     FILL_StepState(g.step, LANE_WORD, kLaneStep)
     FILL_ChunkProgress(g.progress, LANE_WORD, kLaneProgress)
     FILL_ReadSet(g.reads, LANE_WORD, kLaneReads)
+#ifdef __cplusplus   // a kernel's STAND reads it
+    g.at = laneWalk(kLaneStand);
+#endif
     return g;
 }
 void keepShape(Grower g) { KEEP_PendingShape(g.shape, LANE_WORD, kLaneShape) }

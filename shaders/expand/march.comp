@@ -1,7 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_vote : require
-#extension GL_KHR_shader_subgroup_ballot : require
 // The march over the intrinsic walk.
 #define ESPALIER_TABLES
 #include "shaders/shared/extensions.glsl"

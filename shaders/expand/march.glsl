@@ -1,22 +1,26 @@
-// One wave of the queue. Chunks are unlike in length, and lanes run in lockstep: when half of a subgroup's lanes have
-// ended theirs, these are published and the lanes take further items.
+// One wave of the queue. Chunks are unlike in length: lanes that have published theirs take further items (refill.h).
 //
-// Each part of a trip reads what it is about from the lane's memory, and keeps there what it has changed.
+// Each part of a trip reads what it is about from the lane's memory, and keeps there what it has changed. A test runs this
+// text as C++, as members of what stands for a lane.
 #include "shaders/expand/lane_memory.glsl"
 #include "shaders/shared/expand_grow.h"
-
+#ifndef __cplusplus
 layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
+#endif
 
 bool begin(uint item) {
     ChunkGrowth c = {};
-    if (!beginChunk(env, readWorkItem(env.items, item), c)) return false;
+    if (!beginChunk(MACHINE env, readWorkItem(env.items, item), c)) return false;
     keepShape(c.g);
     keepRule(c.g);
     keepStep(c.g);
     keepProgress(c.g);
     keepReads(c.g);
     keepWalk(c.g.trial, kLaneTrial);
+#ifdef __cplusplus   // a kernel's KEEP_STAND has
+    keepWalk(c.g.at, kLaneStand);
+#endif
     KEEP_GrowthSite(c.site, LANE_WORD, kLaneSite)
     LANE_WORD(kLaneItem) = item;
     return true;
@@ -36,12 +40,12 @@ void tell(bool arrived) {
     WalkState trial = laneWalk(kLaneTrial);
     GrowthSite site = laneSite();
     Grower g = laneGrower();
-    tellPlace(env, frameOf(env.surfaces, trial.walk.place >> 16u, site.inputs), site, g.shape.grammar, trial,
+    tellPlace(MACHINE env, frameOf(env.surfaces, trial.walk.place >> 16u, site.inputs), site, g.shape.grammar, trial,
               g.progress.steps + (arrived ? 1u : 0u));
 }
 bool askCondition() {
     Grower g = laneGrower();
-    bool good = conditionHolds(env, laneTables(), g);
+    bool good = conditionHolds(MACHINE env, laneTables(), g);
     keepStep(g);
     keepReads(g);
     LANE_WORD(kLaneProgress + kChunkProgress_phase) = g.progress.phase;
@@ -61,14 +65,14 @@ void lay() {
 }
 void finish() {
     Grower g = laneGrower();
-    finishStep(env, laneTables(), g);
+    finishStep(MACHINE env, laneTables(), g);
     keepShape(g);
     keepStep(g);
     keepProgress(g);
 }
 void derive() {
     Grower g = laneGrower();
-    deriveRules(env, laneTables(), laneSite(), readWorkItem(env.items, LANE_WORD(kLaneItem)), g);
+    deriveRules(MACHINE env, laneTables(), laneSite(), readWorkItem(env.items, LANE_WORD(kLaneItem)), g);
     keepShape(g);
     keepRule(g);
     keepStep(g);
@@ -113,8 +117,17 @@ void march() {
     LANE_WORD(kLaneProgress + kChunkProgress_phase) = g.progress.phase;
 }
 
-// Returns whether the chunk grows on.
-bool trip() {
+// For refillLanes:
+bool takeItem(INOUT(bool) more) {
+    uint i = atomicAdd(env.waves.v[env.wave].taken, 1u);
+    bool there = i < env.waves.v[env.wave].count && i < env.itemCapacity;
+    uint taken = LANE_WORD(kLaneTaken) + 1u;
+    LANE_WORD(kLaneTaken) = taken;
+    more = there && taken < kMostTaken;
+    return there && begin(i);
+}
+bool goesOn() { return phaseNow() <= kPhaseMarch; }
+bool tripOfItem() {
     decide();
     if (phaseNow() == kPhaseMarch) march();
     Grower g = laneGrower();
@@ -123,8 +136,7 @@ bool trip() {
     LANE_WORD(kLaneProgress + kChunkProgress_trips) = g.progress.trips;
     return growing(g.progress);
 }
-
-void end() {
+void endItem() {
     ChunkGrowth c = {};
     c.g = laneGrower();
     c.site = laneSite();
@@ -133,37 +145,24 @@ void end() {
     endChunk(env, c, tally);
     keepTally(tally);
 }
+#ifndef __cplusplus
+#include "shaders/shared/refill.h"   // behind what it calls
+#endif
 
-void main() {
-    openLane();
+void growWave() {
     uint wanted = env.waves.v[env.wave].count;
-    uint count = min(wanted, env.itemCapacity);
-    if (wanted > count) atomicMax(env.status.v[0].items, wanted);
-    bool more = env.waves.v[env.wave].taken < count;   // groups come late to what others have taken
+    if (wanted > env.itemCapacity) atomicMax(env.status.v[0].items, wanted);
     keepTally(emptyTally());
     LANE_WORD(kLaneTaken) = 0u;
-    bool live = false;   // the lane has a chunk,
-    bool grows = false;  // which hasn't ended
-    while (subgroupAny(live || more)) {
-        if (!live && more) {
-            uint i = atomicAdd(env.waves.v[env.wave].taken, 1u);
-            bool there = i < count;
-            if (there) live = begin(i);
-            grows = live && phaseNow() <= kPhaseMarch;
-            uint taken = LANE_WORD(kLaneTaken) + 1u;
-            LANE_WORD(kLaneTaken) = taken;
-            more = there && taken < kMostTaken;
-        }
-        uint few = subgroupAny(more) ? min(gl_SubgroupSize, gl_WorkGroupSize.x) / 2u : 0u;
-        uint busy = few + 1u;
-        while (busy > few) {
-            if (grows) grows = trip();
-            busy = subgroupBallotBitCount(subgroupBallot(grows));
-        }
-        if (live && !grows) {
-            end();
-            live = false;
-        }
-    }
+    // Groups come late to what others have taken.
+    uint taken = loadShared(env.waves.v[env.wave].taken);
+    refillLanes(THIS_LANE taken < wanted && taken < env.itemCapacity);
     addTally(env, laneTally());
 }
+
+#ifndef __cplusplus
+void main() {
+    openLane(kLaneWords);
+    growWave();
+}
+#endif

@@ -1,7 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_vote : require
-#extension GL_KHR_shader_subgroup_ballot : require
 // The march of a regrowth, see expand_again.h.
 #define ESPALIER_AGAIN
 #define ESPALIER_TABLES

@@ -1,7 +1,5 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_KHR_shader_subgroup_vote : require
-#extension GL_KHR_shader_subgroup_ballot : require
 // The march over the walk as the paper prints it.
 #define ESPALIER_PAPER_WALK
 #define ESPALIER_TABLES

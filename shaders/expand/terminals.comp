@@ -3,9 +3,9 @@
 // Tangent, bark and leaves of every node; see expand_terminals.h.
 #define ESPALIER_TABLES
 #include "shaders/shared/extensions.glsl"
+#define LANE_BINDING 1
 #define LANE_SLOTS 0u
-#define LANE_WORDS kSlotWords
-#include "shaders/expand/lane_slots.glsl"   // before what uses slots
+#include "shaders/shared/lane_slots.glsl"   // before what uses slots
 #include "shaders/shared/expand_terminals.h"
 #include "shaders/expand/node_trips.glsl"
 
@@ -13,7 +13,7 @@ layout(local_size_x = 32) in;
 layout(push_constant, scalar) uniform Push { ExpandEnv env; };
 
 void main() {
-    openLane();
+    openLane(kSlotWords);
     uint count = env.status.v[0].nodes;
     bool ready = complete(env);
     uint first = env.status.v[0].frozenNodes;

@@ -14,7 +14,6 @@ void main() {
     if (i >= min(env.state.v[0].rows, env.rowRoom)) return;
     RoofRow item = env.rows.v[i];
     RoofGrid g = env.roofs.grids.v[item.grid];
-    RoofMesh mesh = env.roofs.meshes.v[g.mesh & 255u];
     RoofRun run = runOf(env, g, item.row);
     env.rows.v[i].bucket = kNoBucket;
     if (runCount(run.touched) == 0u) return;
@@ -41,6 +40,8 @@ void main() {
     bool drops = share < 1.0 || mayDrop(env.roofs, g);
     uint whole = drops ? 0u : runCount(run.whole);
     uint cut = 0u;
+    RoofMesh mesh = env.roofs.meshes.v[g.mesh & 255u];
+    CellSpace space = spaceOf(env.roofs, g);
     for (uint k = 0u; k < runCount(run.touched); ++k) {
         uint column = runFirst(run.touched) + k;
         if (drops && cellHidden(env, g, share, column, item.row)) continue;
@@ -48,16 +49,9 @@ void main() {
             whole += drops ? 1u : 0u;
             continue;
         }
-        CellFate fate = cellFate(env, g, mesh, column, item.row);
-        if (fate.whole) {
-            whole += 1u;
-        } else if (g.region == kNoIndex) {
-            cut += 1u;
-        } else {
-            RoofRegion r = env.roofs.regions.v[g.region];
-            CellBox box = cellBox(g, mesh, column, item.row);
-            for (uint p = 0u; p < r.partCount; ++p) cut += partPlanes(env, g, r, p, box) == kPartMissed ? 0u : 1u;
-        }
+        CellFate fate = cellFate(env, g, space, mesh, column, item.row);
+        whole += fate.whole ? 1u : 0u;
+        cut += fate.whole ? 0u : g.region == kNoIndex ? 1u : fate.parts;
     }
     env.rows.v[i].bucket = bucket;
     env.rows.v[i].wholePlace = whole > 0u ? atomicAdd(env.state.v[0].whole[bucket], whole) : 0u;

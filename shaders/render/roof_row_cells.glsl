@@ -6,15 +6,16 @@
 #include "shaders/shared/roof_cells.h"
 
 // A cell outside of its row's run of whole ones. `whole`: nothing cuts it after all. Otherwise rectangleCuts are what the
-// grid's rectangle takes, to be joined to what each part takes.
+// grid's rectangle takes, to be joined to what each part takes; parts: how many of its region's it reaches.
 struct CellFate {
     bool whole;
-    uint rectangleCuts;
+    uint rectangleCuts, parts;
 };
-CellFate cellFate(RoofDrawEnv env, RoofGrid g, RoofMesh mesh, uint column, uint row) {
+CellFate cellFate(RoofDrawEnv env, RoofGrid g, CellSpace space, RoofMesh mesh, uint column, uint row) {
     CellBox box = cellBox(g, mesh, column, row);
     CellFate fate = {};
     fate.rectangleCuts = 0u;
+    fate.parts = 0u;
     if ((g.mesh & kGridRect) != 0u) {
         if (box.low.x < -kCellSlack) fate.rectangleCuts |= kCutLeft;
         if (box.high.x > g.extent.x + kCellSlack) fate.rectangleCuts |= kCutRight;
@@ -22,21 +23,17 @@ CellFate cellFate(RoofDrawEnv env, RoofGrid g, RoofMesh mesh, uint column, uint 
     }
     fate.whole = fate.rectangleCuts == 0u;
     if (g.region == kNoIndex) return fate;
-    RoofRegion r = env.roofs.regions.v[g.region];
-    bool met = false;
-    for (uint i = 0u; i < r.partCount; ++i) {
-        RoofPart part = env.roofs.parts.v[r.firstPart + i];
-        uint cuts = partCuts(env.roofs, g, r, part, box);
+    uint first = env.roofs.regions.v[g.region].firstPart;
+    uint count = env.roofs.regions.v[g.region].partCount;
+    for (uint i = 0u; i < count; ++i) {
+        RoofPart part = env.roofs.parts.v[first + i];
+        uint cuts = partCuts(env.roofs, space, part, box);
         if (cuts == kPartMissed) continue;
-        met = true;
+        fate.parts += 1u;
         if ((cuts & ((1u << ((part.counts >> 8u) & 255u)) - 1u)) != 0u) fate.whole = false;
     }
-    fate.whole = fate.whole && met;
+    fate.whole = fate.whole && fate.parts != 0u;
     return fate;
-}
-// The planes that part i takes off a cell; kPartMissed if there is nothing of it.
-uint partPlanes(RoofDrawEnv env, RoofGrid g, RoofRegion r, uint i, CellBox box) {
-    return partCuts(env.roofs, g, r, env.roofs.parts.v[r.firstPart + i], box);
 }
 
 // Gone by a layer, or left to the pattern below.

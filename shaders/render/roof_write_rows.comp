@@ -19,13 +19,14 @@ void main() {
     uint whole = env.state.v[0].wholeStarts[item.bucket] + item.wholePlace;
     uint cut = env.state.v[0].cutStarts[item.bucket] + item.cutPlace;
     bool drops = item.share < 1.0 || mayDrop(env.roofs, g);
+    CellSpace space = spaceOf(env.roofs, g);
     for (uint k = 0u; k < runCount(run.touched); ++k) {
         uint column = runFirst(run.touched) + k;
         if (drops && cellHidden(env, g, item.share, column, item.row)) continue;
         uint cell = column | (item.row << 16u);
         CellFate fate = {};
         fate.whole = column - runFirst(run.whole) < runCount(run.whole);
-        if (!fate.whole) fate = cellFate(env, g, mesh, column, item.row);
+        if (!fate.whole) fate = cellFate(env, g, space, mesh, column, item.row);
         if (fate.whole) {
             if (whole < env.tileRoom) env.tiles.v[whole] = RoofTile(item.grid, cell);
             whole += 1u;
@@ -33,13 +34,14 @@ void main() {
             if (cut < env.cutRoom) env.cuts.v[cut] = RoofCutTile(item.grid, cell, kNoIndex, fate.rectangleCuts);
             cut += 1u;
         } else {
-            RoofRegion r = env.roofs.regions.v[g.region];
+            uint first = env.roofs.regions.v[g.region].firstPart;
+            uint end = first + env.roofs.regions.v[g.region].partCount;
             CellBox box = cellBox(g, mesh, column, item.row);
-            for (uint p = 0u; p < r.partCount; ++p) {
-                uint planes = partPlanes(env, g, r, p, box);
+            for (uint p = first; p < end; ++p) {
+                uint planes = partCuts(env.roofs, space, env.roofs.parts.v[p], box);
                 if (planes == kPartMissed) continue;
                 if (cut < env.cutRoom)
-                    env.cuts.v[cut] = RoofCutTile(item.grid, cell, r.firstPart + p, planes | fate.rectangleCuts);
+                    env.cuts.v[cut] = RoofCutTile(item.grid, cell, p, planes | fate.rectangleCuts);
                 cut += 1u;
             }
         }

@@ -8,14 +8,13 @@ ESPALIER_BEGIN
 CONST_UINT(kConstantTablesByAddress, 0u);   // tables of rules are read by address, else from a uniform buffer
 CONST_UINT(kConstantFeatures, 1u);          // kFeature…: what plants' grammars use
 CONST_UINT(kConstantRoofUses, 2u);          // the same of roofs' grammars
-CONST_UINT(kConstantRecordsByAddress, 3u);  // roofs' records are read by address, else as texels
+CONST_UINT(kConstantCorners, 3u);           // vertices of leaves that are lit ahead: 3 or 4
 CONST_UINT(kConstantMoved, 4u);             // 0: nodes and leaves have the numbers that they had
 CONST_UINT(kConstantLanes, 5u);             // that share a cell or a block
 CONST_UINT(kConstantExplains, 6u);          // another view than the shaded one is drawn
 CONST_UINT(kConstantRooted, 7u);            // textures hold square roots of colours
 CONST_UINT(kConstantQuick, 8u);             // a picture of what moves, which has to be cheap
 CONST_UINT(kConstantRest, 9u);              // the meadow on the feet of models, and hills before the sky, are drawn, too
-CONST_UINT(kConstantCorners, 10u);          // vertices of leaves that are lit ahead: 3 or 4
 
 ESPALIER_END
 #endif

@@ -3,6 +3,7 @@
 #define ESPALIER_SHARED_EXPAND_ENV_H
 #include "records/growth_records.h"
 #include "records/staged_sample.h"
+#include "shaders/shared/lanes.h"
 #include "shaders/shared/rule_map.h"
 #include "shaders/shared/waves.h"
 
@@ -72,11 +73,8 @@ struct ExpandEnv {
 STATIC_SIZE(ExpandEnv, 128);
 
 CONST_UINT(kMostGroups, 65535u);        // of a dispatch
-// Of passes whose lanes have memory of their own (lane_slots.glsl): as many as a large GPU holds at a time.
-CONST_UINT(kLaneGroups, 1792u);
-CONST_UINT(kLanesBeside, 8u);           // lanes that have theirs side by side
+CONST_UINT(kLaneGroups, kMostLanes / kExpandGroup);   // of passes whose lanes have memory of their own
 CONST_UINT(kLaneSlots, 128u);           // words of that memory where the machine's slots begin, and the chunk's samples
-CONST_UINT(kSlotWords, (kMachineSlots + 3u) / 4u * 4u);
 CONST_UINT(kLaneStage, kLaneSlots + kSlotWords);
 CONST_UINT(kLaneWords, kLaneStage + kChunkNodes * kStagedSample_words);
 // Some software devices end every loop after some 65,000 trips of all loops of an invocation together: so a chunk ends

@@ -115,7 +115,6 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
     vec2 at = a.uv;             // how far the span to b has been followed
     bool seated = false;        // b has been laid on `last`
     bool waits = false;         // at `at` the way has left a triangle with normal `before`
-    TrianglePlane last = {};
     uint lastTriangle = kNoIndex;
     uint passed = kNoIndex;
     vec3 before = vec3(0.0f);
@@ -130,9 +129,10 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
                        dot2(apart, apart) < 9.0f * dot3(chord, chord) + texel * texel;
         float rate = rsqrtExact(larger(dot2(delta, delta), 1e-30f));
         vec2 ahead = delta * smaller(step * rate, 0.5f);
-        TrianglePlane t = last;
+        TrianglePlane t = {};
         uint triangle = lastTriangle;
-        if (follows && (!seated || !isInside(last, at + ahead))) {
+        if (seated) t = readPlane(surfaces, a.place >> 16u, triangle);
+        if (follows && (!seated || !isInside(t, at + ahead))) {
             vec2 look = seated ? at + ahead : b.nearUv - ahead;
             triangle = waits ? kNoIndex : ground;
             if (triangle != kNoIndex) t = readPlane(surfaces, a.place >> 16u, triangle);
@@ -148,7 +148,6 @@ FN_SELDOM uint layOnMesh(SurfaceBuf surfaces, UintBuf stage, StagedNode start, f
         if (follows && !seated) {
             seated = true;
             ends = !whole || isInside(t, at + ahead);
-            last = t;
             lastTriangle = triangle;
             b.position = pointOn(t, b.nearUv);
             stagePosition(stage, i, b.position);

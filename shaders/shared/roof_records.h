@@ -31,10 +31,9 @@ struct RoofPiece {
     uint upper;         // atom that grows on from here above a break; kNoIndex
     uint owner;         // 1: of the two faces this one draws what covers the joint
     float fold;         // tangent of the angle by which either face leans away from what lies between them
-    uint spare[3];      // records fill texels of 16 bytes
+    uint spare[3];
 };
 STATIC_SIZE(RoofPiece, 64);
-RECORD_TEXELS(RoofPiece)
 
 // 128 bytes. Tier 0's shape begins as the segment at the wall's foot.
 struct RoofAtom {
@@ -58,7 +57,6 @@ struct RoofAtom {
     float overhang;     // of the house, metres; 0: as the grammar says
 };
 STATIC_SIZE(RoofAtom, 128);
-RECORD_TEXELS(RoofAtom)
 // RoofAtom::style: 2 bits of the house, 0: chimneys as the grammar says, 1: none, 2: on every ridge; then what is among the outline's pieces.
 CONST_UINT(kAtomGoesOn, 1u << 17u);    // one with an atom above it
 CONST_UINT(kAtomRidged, 1u << 18u);    // a ridge
@@ -76,7 +74,6 @@ struct RoofRegion {
     uint spare[2];
 };
 STATIC_SIZE(RoofRegion, 80);
-RECORD_TEXELS(RoofRegion)
 
 // Convex; between a0 and a1. Its planes (a, b, c, d) hold where a x + b y + c z <= d. The last of them are upright cuts
 // between this part and its neighbours, which only a terminal meets that is clipped anyway.
@@ -86,7 +83,6 @@ struct RoofPart {
     uint counts;        // bits 7..0 planes, 15..8 of them the outline's own
 };
 STATIC_SIZE(RoofPart, 16);
-RECORD_TEXELS(RoofPart)
 
 // RoofScope::marks: bits 7..0 rules so far, then
 CONST_UINT(kShapeSegment, 1u << 8u);
@@ -120,7 +116,8 @@ struct RoofScope {
 };
 STATIC_SIZE(RoofScope, 144);
 RECORD_ACCESS(RoofScope)
-RECORD_TEXELS(RoofScope)
+RECORD_WORDS(RoofScope)
+RECORD_OFFSETS(RoofScope)
 
 // RoofGrid::mesh: bits 7..0 mesh
 CONST_UINT(kGridRect, 1u << 8u);
@@ -178,7 +175,8 @@ struct RoofStatus {
     uint touched, whole;   // cells
     uint terminals;     // grids of one cell
     uint hash[2];       // of all grids, in no order
-    uint spare[4];
+    uint firstGrid;     // those before it stand
+    uint gridGroups[3]; // VkDispatchIndirectCommand over the others
 };
 STATIC_SIZE(RoofStatus, 64);
 
@@ -218,6 +216,14 @@ BUFFER(RoofPlotBuf, RoofPlot)
 BUFFER(RoofStatusBuf, RoofStatus)
 BUFFER(Vec4Buf, vec4)
 
+#ifdef __cplusplus
+inline uint roofAdd(uint& memory, uint value) { return __atomic_fetch_add(&memory, value, __ATOMIC_RELAXED); }
+inline uint roofOr(uint& memory, uint value) { return __atomic_fetch_or(&memory, value, __ATOMIC_RELAXED); }
+#else
+#define roofAdd atomicAdd
+#define roofOr atomicOr
+#endif
+
 // What the kernels read and write; all of it by address.
 struct RoofEnv {
     RuleMapBuf map;           // one
@@ -226,7 +232,7 @@ struct RoofEnv {
     RoofRegionBuf regions;    // room for those that Join makes
     RoofPartBuf parts;
     Vec4Buf planes;
-    RoofScopeBuf shapes, next;
+    RoofScopeBuf queues[2];   // of a wave, and of the next one, by turns
     RoofGridBuf grids;
     RoofRunBuf runs;
     RoofMeshBuf meshes;

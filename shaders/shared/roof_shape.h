@@ -1,19 +1,10 @@
 // A shape of a roof grammar: what a rule may ask of it, the commands that change it, shapes that start from it.
 #ifndef ESPALIER_SHARED_ROOF_SHAPE_H
 #define ESPALIER_SHARED_ROOF_SHAPE_H
-#include "shaders/shared/interpreter.h"
+#include "shaders/shared/roof_lane.h"
 #include "shaders/shared/roof_layers.h"
-#include "shaders/shared/roof_lookup.h"
 
 ESPALIER_BEGIN
-
-#ifdef __cplusplus
-inline uint roofAdd(uint& memory, uint value) { return __atomic_fetch_add(&memory, value, __ATOMIC_RELAXED); }
-inline uint roofOr(uint& memory, uint value) { return __atomic_fetch_or(&memory, value, __ATOMIC_RELAXED); }
-#else
-#define roofAdd atomicAdd
-#define roofOr atomicOr
-#endif
 
 CONST_FLOAT(kLeastSide, 1e-3f);   // metres: what is smaller vanishes
 CONST_FLOAT(kLeastCell, 0.01f);
@@ -33,48 +24,60 @@ FN void giveVector(MACHINE_PARAM uint slot, vec3 v) {
     SET_SLOT(slot + 2u, v.z);
 }
 
-// Fills the slots of rule_map.h for a shape.
-FN void giveLayers(MACHINE_PARAM RoofEnv env, RoofScope shape, uint house, uint layers) {
+// Fills the slots of rule_map.h for the lane's shape.
+FN void giveLayers(LANE_PARAM uint layers) {
     if (layers == 0u) return;
+    RoofScope shape = laneShape(MACHINE_ONLY);
+    uint house = ENV.atoms.v[shape.atom].house;
     vec3 p = shape.origin + shape.axisX * (0.5f * shape.size.x) + shape.axisY * (0.5f * shape.size.y);
+    vec2 at = vec2(p.x, p.z) + plotOf(ENV, house);
     uint i = 0u;
     do {
-        if ((layers >> i & 1u) != 0u) SET_SLOT(kSlotLayer + i, roofLayerAt(env.layers, env.site, i, vec2(p.x, p.z) + plotOf(env, house)));
-        if ((layers >> (i + kRoofLayers) & 1u) != 0u) SET_SLOT(kSlotLayer + kRoofLayers + i, env.means.v[house * kRoofLayers + i]);
+        if ((layers >> i & 1u) != 0u) SET_SLOT(kSlotLayer + i, roofLayerAt(ENV.layers, ENV.site, i, at));
+        if ((layers >> (i + kRoofLayers) & 1u) != 0u) SET_SLOT(kSlotLayer + kRoofLayers + i, ENV.means.v[house * kRoofLayers + i]);
         i += 1u;
     } while (((layers | layers >> kRoofLayers) & 255u) >> i != 0u);
-    roofOr(env.reads.v[house], layers);
+    roofOr(ENV.reads.v[house], layers);
 }
-// inputs: as the compiler notes them for these slots, by their places among a plant's.
-// atom: the shape's; face: its region, where it has one; plot: from its house's records to the world.
-FN void giveShape(MACHINE_PARAM RoofScope shape, RoofAtom atom, RoofRegion face, vec2 plot, uint inputs) {
+FN void giveOutline(LANE_ONLY_PARAM) {
+    RoofScope shape = laneShape(MACHINE_ONLY);
+    vec2 plot = plotOf(ENV, ENV.atoms.v[shape.atom].house);
     vec3 there = vec3(plot.x, 0.0f, plot.y);
     giveVector(MACHINE kSlotPos0, shape.origin + there);
     giveVector(MACHINE kSlotPos1, shape.origin + shape.axisX * shape.size.x + there);
     giveVector(MACHINE kSlotLocalNormal, cross3(shape.axisX, shape.axisY));
     giveVector(MACHINE kSlotLocalTangent, shape.axisX);
-    giveVector(MACHINE kSlotEaveTangent, atom.tangent);
-    vec3 target1 = atom.foot;
-    vec3 target2 = atom.foot;
-    float start = 0.0f;
-    if ((inputs & kInputsOfTargets) != 0u && atom.region != kNoIndex) {
-        target1 = regionPoint(face, atom.target1, shape.base, shape.stretch);
-        target2 = regionPoint(face, atom.target2, shape.base, shape.stretch);
-        start = -face.low.x;
-    }
-    giveVector(MACHINE kSlotRoofPos1, target1 + there);
-    giveVector(MACHINE kSlotRoofPos2, target2 + there);
-    SET_SLOT(kSlotRoofHeight, atom.height);
-    SET_SLOT(kSlotRoofSlope, atom.slope);
     SET_SLOT(kSlotProjectHeight, shape.projectHeight);
     SET_SLOT(kSlotSizeX, shape.size.x);
     SET_SLOT(kSlotSizeY, shape.size.y);
     SET_SLOT(kSlotIndex, float(shape.place & 0xFFFFu));
     SET_SLOT(kSlotCount, float(shape.place >> 16u));
-    SET_SLOT(kSlotEaveStart, start);
-    SET_SLOT(kSlotEaveLength, atom.eaveLength);
     SET_SLOT(kSlotJoint, float((shape.marks >> kShapeJoint) & 15u));
     SET_SLOT(kSlotOwner, (shape.marks & kShapeOwner) != 0u ? 1.0f : 0.0f);
+}
+FN void giveTargets(LANE_PARAM uint inputs) {
+    RoofScope shape = laneShape(MACHINE_ONLY);
+    RoofAtom atom = ENV.atoms.v[shape.atom];
+    vec2 plot = plotOf(ENV, atom.house);
+    vec3 target1 = atom.foot;
+    vec3 target2 = atom.foot;
+    float start = 0.0f;
+    if ((inputs & kInputsOfTargets) != 0u && atom.region != kNoIndex) {
+        RoofRegion face = ENV.regions.v[atom.region];
+        target1 = regionPoint(face, atom.target1, shape.base, shape.stretch);
+        target2 = regionPoint(face, atom.target2, shape.base, shape.stretch);
+        start = -face.low.x;
+    }
+    giveVector(MACHINE kSlotRoofPos1, target1 + vec3(plot.x, 0.0f, plot.y));
+    giveVector(MACHINE kSlotRoofPos2, target2 + vec3(plot.x, 0.0f, plot.y));
+    SET_SLOT(kSlotEaveStart, start);
+}
+FN void giveHouse(LANE_ONLY_PARAM) {
+    RoofAtom atom = ENV.atoms.v[laneShape(MACHINE_ONLY).atom];
+    giveVector(MACHINE kSlotEaveTangent, atom.tangent);
+    SET_SLOT(kSlotRoofHeight, atom.height);
+    SET_SLOT(kSlotRoofSlope, atom.slope);
+    SET_SLOT(kSlotEaveLength, atom.eaveLength);
     SET_SLOT(kSlotFaceKind, float(atom.kind));
     SET_SLOT(kSlotTier, float(atom.tier));
     SET_SLOT(kSlotWallHeight, atom.wallHeight);
@@ -91,12 +94,12 @@ FN void giveShape(MACHINE_PARAM RoofScope shape, RoofAtom atom, RoofRegion face,
     uint covered = atom.style >> kAtomShared;
     SET_SLOT(kSlotWallShared, covered == kAtomClosed ? atom.wallHeight : 0.25f * float(covered));
 }
-
-// A rule's numbers, kept while its successors' code runs.
-struct RoofNumbers {
-    float v[kMaxSplit];
-};
-FN vec3 vectorOf(RoofNumbers n, uint i) { return vec3(n.v[i], n.v[i + 1u], n.v[i + 2u]); }
+// inputs: as the compiler notes them for these slots, by their places among a plant's.
+FN void giveShape(LANE_PARAM uint inputs) {
+    giveOutline(MACHINE_ONLY);
+    giveTargets(MACHINE inputs);
+    giveHouse(MACHINE_ONLY);
+}
 
 FN uint packColour(float r, float g, float b) {
     return uint(sqrtExact(limited(r, 0.0f, 1.0f)) * 255.0f + 0.5f) |
@@ -104,14 +107,15 @@ FN uint packColour(float r, float g, float b) {
            (uint(sqrtExact(limited(b, 0.0f, 1.0f)) * 255.0f + 0.5f) << 16u);
 }
 
-// S, T, R, Tint, Colour, Drop and Moss of a rule. What is negative leaves what there is.
-FN RoofScope applyScope(RoofNumbers n, RoofScope shape) {
-    vec3 size = vectorOf(n, 0u);
-    vec3 move = vectorOf(n, 3u);
-    float turn = n.v[6];
-    float pitch = n.v[7];
-    float tint = n.v[8];
-    vec3 colour = vectorOf(n, 9u);
+// The lane's shape after S, T, R, Tint, Colour, Drop and Moss of a rule. What is negative leaves what there is.
+FN RoofScope changedShape(LANE_ONLY_PARAM) {
+    RoofScope shape = laneShape(MACHINE_ONLY);
+    vec3 size = vectorOf(MACHINE 0u);
+    vec3 move = vectorOf(MACHINE 3u);
+    float turn = NUMBER(6u);
+    float pitch = NUMBER(7u);
+    float tint = NUMBER(8u);
+    vec3 colour = vectorOf(MACHINE 9u);
     vec3 normal = cross3(shape.axisX, shape.axisY);
     shape.origin = shape.origin + shape.axisX * move.x + shape.axisY * move.y + normal * move.z;
     if (size.x >= 0.0f) shape.size.x = size.x;
@@ -131,8 +135,8 @@ FN RoofScope applyScope(RoofNumbers n, RoofScope shape) {
     }
     if (tint >= 0.0f) shape.colour = (shape.colour & 0xFFFFFFu) | (uint(limited(tint, 0.0f, 1.0f) * 255.0f + 0.5f) << 24u);
     if (colour.x >= 0.0f) shape.colour = (shape.colour & 0xFF000000u) | packColour(colour.x, colour.y, colour.z);
-    if (n.v[12] >= 0.0f) shape.layers = (shape.layers & 0xFF00u) | uint(limited(n.v[12], 0.0f, 8.0f));
-    if (n.v[13] >= 0.0f) shape.layers = (shape.layers & 0xFFu) | (uint(limited(n.v[13], 0.0f, 8.0f)) << 8u);
+    if (NUMBER(12u) >= 0.0f) shape.layers = (shape.layers & 0xFF00u) | uint(limited(NUMBER(12u), 0.0f, 8.0f));
+    if (NUMBER(13u) >= 0.0f) shape.layers = (shape.layers & 0xFFu) | (uint(limited(NUMBER(13u), 0.0f, 8.0f)) << 8u);
     return shape;
 }
 

@@ -88,7 +88,7 @@ void Scene::plantMany(uint32_t count, uint32_t grammar, uint64_t number) {
     }
 }
 
-Result<CpuGrowth> Scene::growOnCpu() {
+Result<CpuGrowth> Scene::growOnCpu(const March& march) {
     SurfaceRef surface = surfaceRef(surface_);
     std::vector<LayerRef> layers(kMaxLayers, LayerRef{{nullptr}, 0, 1});
     for (Layer& l : layers_) layers[l.index] = {{l.texels.data()}, l.size, 1};
@@ -103,7 +103,7 @@ Result<CpuGrowth> Scene::growOnCpu() {
     in.seeds = seeds_;
     in.pruned = pruned;
     in.limits = limits;
-    return espalier::growOnCpu(in);
+    return espalier::growOnCpu(in, {}, march);
 }
 
 Status Scene::grow(Device& device, Growth& growth) {

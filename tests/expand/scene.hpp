@@ -46,7 +46,7 @@ class Scene {
     GrowthWatch* watch = nullptr;            // see GrowthInputs
     bool native = false;                     // see there; tests are of shaders where they don't say otherwise
 
-    Result<CpuGrowth> growOnCpu();
+    Result<CpuGrowth> growOnCpu(const March& march = {});
     // Uploads and grows; the buffers live as long as the scene.
     Status grow(Device& device, Growth& growth);
 

@@ -24,7 +24,7 @@ TEST_CASE("broken SPIR-V is refused, wherever it ends and whatever it holds") {
     for (int i = 0; i < 3000; ++i) {
         std::vector<uint32_t> bad(good.begin(), good.end());
         for (int k = 0; k < 3; ++k) bad[random() % bad.size()] ^= 1u << (random() % 32);
-        if (reflect("flipped", bad)) (void)withoutContraction(bad);
+        if (reflect("flipped", bad)) (void)withoutContraction(bad), (void)reconverged(bad);
     }
 }
 
@@ -127,6 +127,20 @@ TEST_CASE("every float operation of an exact module is decorated, once, and the 
     const Result<ShaderInterface> a = reflect("a", code), b = reflect("b", exact);
     REQUIRE((a && b));
     CHECK(a.value().pushBytes == b.value().pushBytes);
+}
+
+TEST_CASE("a module with operations of subgroups is told once to bring lanes together, others stay as they are") {
+    const std::span<const uint32_t> code = shaderCode("expand/march.comp");
+    const std::vector<uint32_t> together = reconverged(code);
+    CHECK(together.size() == code.size() + 3 + 9);  // an execution mode, and an extension of 29 letters
+    CHECK(reconverged(together) == together);
+    const Result<ShaderInterface> a = reflect("a", code), b = reflect("b", together);
+    REQUIRE((a && b));
+    CHECK(a.value().slots == b.value().slots);
+    CHECK(a.value().localSize == b.value().localSize);
+    CHECK(withoutContraction(together).size() - together.size() == withoutContraction(code).size() - code.size());
+    const std::span<const uint32_t> alone = shaderCode("expand/fit.comp");
+    CHECK(reconverged(alone) == std::vector<uint32_t>(alone.begin(), alone.end()));
 }
 
 TEST_CASE("records have one layout in C++ and SPIR-V") {

@@ -55,6 +55,7 @@ struct Roofs {
         in.town = &tables;
         in.grammar = &map;
         in.meshes = kBounds;
+        in.native = false;
         return in;
     }
 };

@@ -37,10 +37,9 @@ TEST_CASE("the GPU grows what the CPU grows") {
     }
     Roofs r = roofs(all, kSlates);
     CpuRoofs cpu = growRoofsOnCpu(r.inputs(), 2);
-    // As texels, where the device is one of software, and by address, as on others.
-    for (bool fetch : {true, false, true}) {
+    for (bool native : {false, true, false}) {
         RoofInputs inputs = r.inputs();
-        inputs.fetch = fetch;
+        inputs.native = native;
         REQUIRE((*growth)->grow(inputs));
         const RoofStats stats = (*growth)->stats();
         CHECK(stats.hash == (uint64_t(cpu.status.hash[1]) << 32 | cpu.status.hash[0]));
@@ -57,7 +56,7 @@ TEST_CASE("more waves than the last expansion took are gone through") {
     REQUIRE(growth);
     const char* stairs =
         "House -> Extrude(wallHeight) {Step(20), NULL}\n"
-        "Step(n) : n > 0 -> Step(n - 1) Tile\n"
+        "Step(n) : n > 0 -> Tile Step(n - 1)\n"  // the second is for another wave
         "Step(n) -> NULL\n"
         "Tile -> Shape(\"slate\")\n";
     Roofs flat = roofs({footprint(kRectangle)}, kSlates), deep = roofs({footprint(kRectangle)}, stairs);

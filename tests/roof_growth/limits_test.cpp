@@ -58,11 +58,11 @@ TEST_CASE("a rule may ask for its number in a Repeat and for nothing else") {
         const CpuRoofs cpu = growRoofsOnCpu(r.inputs());
         CHECK(cpu.records.grids.size() == 4);
         RoofInputs inputs = r.inputs();
-        for (inputs.fetch = true;; inputs.fetch = false) {
+        for (const bool native : {false, true}) {
+            inputs.native = native;
             REQUIRE(gpu.grow(inputs));
             CHECK(gpu.growth->stats().grids == 4);
             CHECK(gpu.growth->stats().hash == hashOf(cpu));
-            if (!inputs.fetch) break;
         }
     }
     // Each by its number, below what the slat itself asks for.

@@ -1,5 +1,5 @@
-// roof/expand-...: all roofs of a town with a full covering, the same loop in C++ on two threads beside it; one house
-// beside the town; bytes a tile.
+// roof/expand-...: all roofs of a town with a full covering, as native code on a software device, the CPU reference on
+// two threads beside it; native code and shaders; one house beside the town; bytes a tile.
 #include <fstream>
 #include <sstream>
 
@@ -49,17 +49,26 @@ void roofGrowthCases(Bench& bench) {
     growTown();  // loads the town into one of two sets of buffers,
     growTown();  // and into the other
     const Pair whole = medianSeconds(bench.options().repeats, growTown, [&] { (void)growRoofsOnCpu(inputs, 2); });
-    const RoofStats stats = (*growth)->stats();
-    std::vector<double> ours, theirs;
+    std::vector<double> ours, theirs, shaders;
     for (int i = 0; i < bench.options().repeats; ++i) {
         ours.push_back(cpuSeconds(growTown));
         theirs.push_back(cpuSeconds([&] { (void)growRoofsOnCpu(inputs, 2); }));
     }
+    const bool native = (*growth)->stats().native;
+    inputs.native = false;
+    growTown();  // makes the kernels
+    for (int i = 0; i < bench.options().repeats; ++i) shaders.push_back(cpuSeconds(growTown));
+    const RoofStats stats = (*growth)->stats();
+    inputs.native = true;
+    growTown();
     bench.add({name + "/cpu", "all roofs anew, CPU time", "ms", 1e3 * median(ours), "the same in C++ on two threads",
                1e3 * median(theirs)});
     bench.add(
         {name, "all roofs anew, wall clock", "ms", 1e3 * whole.a, "the same in C++ on two threads", 1e3 * whole.b});
-    bench.add({name + "/gpu", "GPU time of it", "ms", stats.expandMs, "bound on a graphics card", 10});
+    if (native)
+        bench.add({name + "/native", "all roofs anew as native code, CPU time", "ms", 1e3 * median(ours), "as shaders",
+                   1e3 * median(shaders)});
+    bench.add({name + "/gpu", "GPU time of it as shaders", "ms", stats.expandMs, "bound on a graphics card", 10});
     bench.add({name + "/tiles", "tiles", "tiles", double(stats.tiles), "asked for", 9.5e6});
     bench.add({name + "/memory", "bytes of a tile", "B", double(stats.bytes) / double(stats.tiles), "bound", 8});
     uint32_t house = 0;
