@@ -53,6 +53,13 @@ ESP_API EspResult espGrammarKind(const EspContext* context, EspGrammar grammar, 
 ESP_API uint32_t espFieldCount(const EspContext* context, EspGrammar grammar);
 ESP_API const char* espFieldName(const EspContext* context, EspGrammar grammar, uint32_t index);
 
+/* ---- Pieces ------------------------------------------------------------------------------------------------- */
+
+/* The meshes that grammars of patterns may place from now on: what espalier-bake --pieces wrote, read as all files are. NULL:
+ * pieces.glb beside EspContextDef::terminals, as at first. ESP_INVALID_ARGUMENT: a grammar of patterns is compiled already,
+ * which knows the meshes that there were. ESP_IO_FAILED: the file can't be read, and the meshes are what they were. */
+ESP_API EspResult espSetPieces(EspContext* context, const char* path);
+
 /* ---- What has been placed ----------------------------------------------------------------------------------- */
 
 typedef struct EspPatternStats {

@@ -93,7 +93,7 @@ EspResult create(EspContextDef def, EspContext** out) {
     const std::filesystem::path folder = def.files ? std::filesystem::path() : contentFolder();
     const std::filesystem::path terminals = def.terminals ? def.terminals : folder / "terminals.glb";
     context->roofMeshFile = std::filesystem::path(terminals).replace_filename("roofs.glb");
-    context->patterns.file = std::filesystem::path(terminals).replace_filename("pieces.glb");
+    context->patterns.shipped = std::filesystem::path(terminals).replace_filename("pieces.glb");
     std::vector<std::byte> file;
     if (EspResult unread = readWhole(context.get(), terminals.string(), file))
         return failAlone(unread, "terminal meshes: " + context->error);

@@ -67,6 +67,20 @@ EspResult espSetField(EspContext* context, EspSurface surface, const char* name,
     });
 }
 
+EspResult espSetPieces(EspContext* context, const char* path) {
+    return guarded(context, [&] {
+        bool known = false;
+        context->grammars.forEach(
+            [&](uint32_t, const LoadedGrammar& grammar) { known = known || grammar.map.patterns(); });
+        if (known)
+            return fail(context, ESP_INVALID_ARGUMENT,
+                        "espSetPieces: a grammar of patterns is compiled already; destroy it before");
+        if (Status read = usePieces(*context, path ? std::filesystem::path(path) : std::filesystem::path()); !read)
+            return failWork(context, read.failure());
+        return ESP_OK;
+    });
+}
+
 EspResult espGrammarKind(const EspContext* context, EspGrammar grammar, EspGrammarKind* out) {
     return guarded(context, [&] {
         const LoadedGrammar* found = context->grammars.find(grammar.id);

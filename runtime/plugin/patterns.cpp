@@ -215,19 +215,25 @@ EspResult derive(EspContext& context, const PatternPlanting& planting) {
 
 }  // namespace
 
-Status knowPieces(EspContext& context) {
+Status usePieces(EspContext& context, const std::filesystem::path& wanted) {
     ContextPatterns& patterns = context.patterns;
-    if (!patterns.names.empty()) return Done{};
-    const Result<std::vector<std::byte>> file = context.files.read(patterns.file.string());
+    const std::filesystem::path path = wanted.empty() ? patterns.shipped : wanted;
+    if (path == patterns.file && !patterns.names.empty()) return Done{};
+    const Result<std::vector<std::byte>> file = context.files.read(path.string());
     if (!file) return file.failure();
-    Result<TerminalData> meshes = parseTerminals(file.value(), patterns.file.string(), {"none"});
+    Result<TerminalData> meshes = parseTerminals(file.value(), path.string(), {"none"});
     if (!meshes) return meshes.failure();
     std::vector<TerminalMesh> names;
     for (const std::string& kind : meshes->kinds) names.push_back({kind, false});
     patterns.meshes = collidersOf(*meshes);
     patterns.names = std::move(names);
     patterns.data = std::move(*meshes);
+    patterns.file = path;
     return Done{};
+}
+
+Status knowPieces(EspContext& context) {
+    return context.patterns.names.empty() ? usePieces(context, context.patterns.file) : Status(Done{});
 }
 
 bool beginsPattern(const EspContext& context, const PlantedSeed& seed) {

@@ -43,7 +43,7 @@ struct FieldGround {
 };
 
 struct ContextPatterns {
-    std::filesystem::path file;  // of the pieces' meshes
+    std::filesystem::path shipped, file;  // of the pieces' meshes: those that are there at first, and now
     std::vector<TerminalMesh> names;
     std::optional<TerminalData> data;  // until the renderer has it
     PieceMeshes meshes;
@@ -58,6 +58,9 @@ struct ContextPatterns {
 
 // Names of the meshes that grammars of patterns may ask for; reads their file the first time.
 Status knowPieces(EspContext& context);
+// Takes the meshes of another file, or of the shipped one where `file` is empty, before any grammar knows them. On
+// failure they are what they were.
+Status usePieces(EspContext& context, const std::filesystem::path& file);
 // Derives patterns anew if something that they depend on has changed; on failure the last ones stand.
 EspResult updatePatterns(EspContext& context);
 // Whether a seed begins a pattern, no plant.

@@ -11,7 +11,7 @@
 namespace espalier {
 namespace {
 
-constexpr float kPieceFade = 0.15f;     // share of the distance over which a level takes over
+constexpr float kPieceFade = 0.15f;   // share of the distance over which a level takes over
 constexpr float kLeastPiece = 0.35f;  // radius below which a piece isn't drawn
 
 }  // namespace
@@ -22,6 +22,10 @@ Result<std::unique_ptr<PieceDraw>> PieceDraw::create(Device& device, TerminalDat
     Result<Terminals> terminals = Terminals::create(device, std::move(meshes), TerminalChoice::cpu);
     if (!terminals) return terminals.failure();
     draw->terminals_ = std::move(*terminals);
+    if (Status s = assign(draw->sampler_, Sampler::create(device, {.name = "piece textures",
+                                                                   .anisotropy = device.info().traits.anisotropy}));
+        !s)
+        return s.failure();
     if (Status s = draw->makePrograms(color, depth, samples); !s) return s.failure();
     return draw;
 }
@@ -161,12 +165,14 @@ void PieceDraw::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& fra
         const auto variant = std::ranges::find_if(table.variants, [&](const VariantRecord& v) {
             return run.bucket >= v.firstBucket && run.bucket < v.firstBucket + v.lodCount;
         });
-        const PiecePush push{run.first, run.bucket - variant->firstBucket,
-                             terminals_.data().materials[bucket.material].roughness};
+        const TerminalMaterial& material = terminals_.data().materials[bucket.material];
+        const PiecePush push{run.first, run.bucket - variant->firstBucket, material.roughness,
+                             material.baseColorPicture >= 0 ? 1u : 0u};
         const DrawPass::IndexRange range{bucket.indexCount, bucket.firstIndex, int32_t(bucket.firstVertex), run.count};
         const Binding texels(chosen.texels), meshes(terminals_.vertexTexels());
         if (shadow)
-            pass.drawIndexed(built_[size_t(shading)], range, push, {*shadow, frame, texels, meshes});
+            pass.drawIndexed(built_[size_t(shading)], range, push,
+                             {{terminals_.baseColor(bucket.material), sampler_}, *shadow, frame, texels, meshes});
         else
             pass.drawIndexed(depth_, range, push, {frame, texels, meshes});
     }

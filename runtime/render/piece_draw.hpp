@@ -70,6 +70,7 @@ class PieceDraw {
     std::vector<PatternPiece> pieces_;
     std::vector<Sphere> spheres_;
     Program built_[kShadings], depth_;
+    Sampler sampler_;
     Chosen inView_, casters_;
     View chosenFor_;
     uint64_t revision_ = 0;

@@ -7,14 +7,15 @@
 #include "shaders/render/fade.glsl"
 
 layout(push_constant, scalar) uniform Data { PiecePush push; };
+layout(set = 0, binding = 0) uniform sampler2D colorMap;
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) flat in vec3 base;
-layout(location = 3) in vec2 shadeFade;
+layout(location = 3) in vec3 uvFade;
 layout(location = 0) out vec4 color;
 
 void main() {
-    if (fadedOut(shadeFade.y, gl_FragCoord.xy)) discard;
+    if (fadedOut(uvFade.z, gl_FragCoord.xy)) discard;
     vec3 n = normalize(normal);
     vec3 eye = normalize(frame.eye - position);
     if (dot(n, eye) < 0.0 && !gl_FrontFacing) n = -n;
@@ -24,7 +25,7 @@ void main() {
                 : frame.view == kViewLod ? diagnostic(lodColor(push.lod), n) : diagnostic(vec3(0.4), n);
         return;
     }
-    vec3 own = base * shadeFade.x;
+    vec3 own = base * (push.textured != 0u ? texelColor(texture(colorMap, uvFade.xy).rgb) : vec3(uvFade.x));
     vec3 sun = frame.sunDirection;
     float facing = max(dot(n, sun), 0.0);
     float visible = facingSunVisibility(facing, position, n);

@@ -12,7 +12,7 @@ layout(set = 0, binding = 11) uniform usamplerBuffer meshes;      // two words a
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) flat out vec3 base;
-layout(location = 3) out vec2 shadeFade;
+layout(location = 3) out vec3 uvFade;
 
 // Of a piece without a colour of its own.
 const vec3 kPlain = vec3(0.42, 0.39, 0.33);
@@ -29,7 +29,7 @@ void main() {
     // The axes are at right angles, so their inverse transpose is each over the square of its length.
     normal = x * (n.x / dot(x, x)) + y * (n.y / dot(y, y)) + z * (n.z / dot(z, z));
     vec3 own = vec3((uvec3(d.z) >> uvec3(20u, 10u, 0u)) & 1023u) * (1.0 / 1023.0);
-    base = d.z == 0xFFFFFFFFu ? kPlain : own;
-    shadeFade = vec2(uintBitsToFloat(texelFetch(meshes, vertex + 2).x), uintBitsToFloat(d.y));
+    base = d.z != 0xFFFFFFFFu ? own : push.textured != 0u ? vec3(1.0) : kPlain;
+    uvFade = vec3(uintBitsToFloat(texelFetch(meshes, vertex + 2).xy), uintBitsToFloat(d.y));
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 }

@@ -11,8 +11,9 @@ struct PiecePush {
     uint firstInstance;
     uint lod;
     float roughness;
+    uint textured;       // 1: the mesh has a picture; 0: u is how bright it leaves its colour
 };
-STATIC_SIZE(PiecePush, 12);
+STATIC_SIZE(PiecePush, 16);
 
 ESPALIER_END
 #endif

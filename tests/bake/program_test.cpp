@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/core/file.hpp"
+#include "runtime/emit/terminals.hpp"
 #include "tests/bake/small_models.hpp"
 
 using namespace espalier;
@@ -58,6 +59,19 @@ struct Runner {
         return {number(16), number(20)};
     }
 };
+
+// A cube of so many squares along an edge, a side so long, as the text of a file.
+std::string objOfCube(int squares, glm::vec3 size, glm::vec3 middle) {
+    const Model model = cube(squares);
+    std::string text;
+    for (const glm::vec3& p : model.positions) {
+        const glm::vec3 at = middle + p * size * .5f;
+        text += "v " + std::to_string(at.x) + " " + std::to_string(at.y) + " " + std::to_string(at.z) + "\n";
+    }
+    for (size_t i = 0; i < model.indices.size(); ++i)
+        text += (i % 3 == 0 ? "\nf " : " ") + std::to_string(model.indices[i] + 1);
+    return text + "\n";
+}
 
 }  // namespace
 
@@ -195,6 +209,46 @@ TEST_CASE("--help and --version answer; mistakes end with a message, a code and 
     CHECK(!r.has("s.glb"));
     CHECK(!r.has("r.json"));
     CHECK(readSurface(r.file("cube.glb")));
+}
+
+TEST_CASE("--pieces makes a palette of a folder: each model by its name, of size 1, with coarser levels") {
+    Runner r;
+    std::filesystem::create_directories(r.folder / "models");
+    REQUIRE(writeFile(r.file("models/old box.obj"), objOfCube(16, {3, 2, 3}, {5, -1, 0})));
+    REQUIRE(writeFile(r.file("models/7.obj"), objOfCube(1, {1, 4, .5f}, {0, 0, 0})));
+    REQUIRE(r.run("models -o palette.glb --pieces") == 0);
+    CAPTURE(r.output);
+    CHECK(r.says("oldbox: "));
+    CHECK(r.says("piece7: 12 triangles, 1 levels"));
+    auto bytes = readFile(r.folder / "palette.glb");
+    REQUIRE(bytes);
+    auto palette = parseTerminals(*bytes, "palette.glb", {"none"});
+    if (!palette) FAIL(palette.failure().text());
+    const auto sizeOf = [&](const char* name) {
+        const auto kind = std::find(palette->kinds.begin(), palette->kinds.end(), name);
+        REQUIRE(kind != palette->kinds.end());
+        glm::vec3 low(9), high(-9);
+        for (const TerminalVariant& variant : palette->variants)
+            if (variant.kind == uint32_t(kind - palette->kinds.begin()))
+                for (uint32_t i = 0; i < variant.lods[0].indexCount; ++i) {
+                    const TerminalLod& lod = variant.lods[0];
+                    const glm::vec3 p =
+                        palette->vertices[lod.firstVertex + palette->indices[lod.firstIndex + i]].position;
+                    low = glm::min(low, p), high = glm::max(high, p);
+                }
+        return std::pair(low, high);
+    };
+    const auto near = [](glm::vec3 a, glm::vec3 b) { return glm::length(a - b) < .01f; };
+    CHECK(near(sizeOf("oldbox").first, {-.5f, 0, -.5f}));
+    CHECK(near(sizeOf("oldbox").second, {.5f, 2 / 3.f, .5f}));
+    CHECK(near(sizeOf("piece7").second, {.5f, 4, .25f}));
+    CHECK(r.run("models -o palette.glb --pieces --quiet") == 0);
+    CHECK(r.output.empty());
+    CHECK(r.run("models/7.obj -o models/7.obj --pieces") == 2);
+    REQUIRE(writeFile(r.file("models/bad.obj"), std::string_view("v 0 0 0\n")));
+    CHECK(r.run("models -o other.glb --pieces") == 1);
+    CHECK(r.says("bad.obj"));
+    CHECK(!r.has("other.glb"));
 }
 
 TEST_CASE("what isn't for a model, a folder or a town is refused by its name, and nothing is made") {

@@ -111,3 +111,24 @@ TEST_CASE("what can't be a field or a pattern is refused, and what stands stays"
     REQUIRE(pattern.update());
     CHECK(pattern.stats().hash == before);
 }
+
+TEST_CASE("another palette is taken before a grammar knows the meshes, and a wrong one changes nothing") {
+    Life life;
+    EspContextDef def = esp::defaults<EspContextDef>();
+    def.log = silent;
+    REQUIRE(espCreate(ESP_VERSION, &def, &life.context) == ESP_OK);
+    CHECK(espSetPieces(life.context, "no such.glb") == ESP_IO_FAILED);
+    CHECK(std::string(espLastError(life.context)).find("no such.glb") != std::string::npos);
+    REQUIRE_MESSAGE(espSetPieces(life.context, ESPALIER_CONTENT "/roofs.glb") == ESP_OK,
+                    espLastError(life.context));
+    const std::string scales = "A -> IC(\"scale\")", battens = "A -> IC(\"batten\")";
+    EspGrammarDef text = esp::grammarDef("scales", scales);
+    CHECK(espCompileGrammar(life.context, &text, &life.grammar) == ESP_INVALID_CONTENT);
+    text = esp::grammarDef("battens", battens);
+    REQUIRE_MESSAGE(espCompileGrammar(life.context, &text, &life.grammar) == ESP_OK, espLastError(life.context));
+    CHECK(espSetPieces(life.context, nullptr) == ESP_INVALID_ARGUMENT);
+    REQUIRE(espDestroyGrammar(life.context, life.grammar) == ESP_OK);
+    CHECK(espSetPieces(life.context, nullptr) == ESP_OK);
+    text = esp::grammarDef("scales", scales);
+    CHECK(espCompileGrammar(life.context, &text, &life.grammar) == ESP_OK);
+}

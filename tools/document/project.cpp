@@ -73,6 +73,7 @@ SceneFile describe(const Document& document) {
     if (out.town)
         for (scene::House& house : out.town->houses) house.id = idOf(document.context(), house.index);
     out.site = scene.site;
+    out.pieces = scene.pieces;
     out.walk = scene.grow.walk;
     out.pruned.resize(espPrunedCount(document.context()));
     for (uint32_t i = 0; i < out.pruned.size(); ++i) (void)espPrunedAt(document.context(), i, &out.pruned[i]);

@@ -86,7 +86,7 @@ bool writeLayers(ProjectData& data, const Folder& home, Progress& progress, std:
 
 // A project that names a file otherwise than the disk does couldn't be opened.
 bool canName(const std::string& folder, const SceneFile& file, std::string& error) {
-    std::vector<std::string> names{file.site, file.town ? file.town->file : ""};
+    std::vector<std::string> names{file.site, file.pieces, file.town ? file.town->file : ""};
     for (const scene::SceneSurface& surface : file.surfaces) names.push_back(surface.file);
     for (const scene::SceneGrammar& grammar : file.grammars) names.push_back(grammar.file);
     const fs::path from = scene::absolutePath(folder).lexically_normal();

@@ -222,6 +222,8 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
     Parts parts(request, file.surfaces.size() + file.grammars.size() + file.layers.size() + file.town.has_value() +
                              !file.site.empty());
     if (!loadSurfaces(context, file, parts, out, error)) return false;
+    out.pieces = file.pieces;
+    if (!out.pieces.empty() && !fromContext(context, espSetPieces(context, out.pieces.c_str()), error)) return false;
     if (!loadGrammars(context, request, file, parts, out, error)) return false;
     for (uint64_t branch : file.pruned)
         if (!fromContext(context, espPruneBranch(context, branch, 1), error)) return false;

@@ -121,6 +121,7 @@ struct Scene {
     };
     std::vector<PlannedRoof> plannedRoofs;  // [house] as the town's file says
     std::string site;                       // file of what furnishes it; empty: nothing does
+    std::string pieces;                     // palette of patterns; empty: the shipped one
     EspGrowDef grow = esp::defaults<EspGrowDef>();
     std::vector<std::string> layers;  // that grammars read; then those that are painted and that none reads any more
     std::vector<std::string> colourLayers;  // those of them that are colours (tools/scene/layers.hpp)

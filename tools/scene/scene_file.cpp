@@ -22,7 +22,7 @@ class Reader : JsonChecks {
         if (!readVersion(json)) return;
         if (!isObject(json, "a scene",
                       {"project", "follows", "surface", "surfaces", "town", "pruned", "walk", "grammars", "filled",
-                       "layers", "camera", "sun", "sky", "ground", "site", "exposure"}))
+                       "layers", "camera", "sun", "sky", "ground", "site", "pieces", "exposure"}))
             return;
         if (json.find("follows")) word(json, "follows", out_.follows);
         readSurfaces(json);
@@ -33,6 +33,7 @@ class Reader : JsonChecks {
         }
         if (const Json* town = json.find("town")) readTown(*town);
         if (const Json* site = json.find("site")) out_.site = file(*site);
+        if (const Json* pieces = json.find("pieces")) out_.pieces = file(*pieces);
         if (const Json* pruned = json.find("pruned")) readPruned(*pruned);
         if (const Json* walk = json.find("walk");
             walk && (walk->kind != Json::Kind::text || !walkNamed(walk->text, out_.walk)))

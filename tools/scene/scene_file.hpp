@@ -45,6 +45,7 @@ struct SceneFile {
     std::vector<SceneGrammar> grammars;
     std::optional<SceneTown> town;
     std::string site;              // file of what furnishes the scene; empty: nothing does
+    std::string pieces;            // palette that patterns place meshes of; empty: the shipped one
     std::vector<uint64_t> pruned;  // keys of branches, ascending
     EspWalkMode walk = ESP_WALK_INTRINSIC;
     std::vector<std::pair<std::string, float>> filled;  // layers that have one value wherever nothing is painted

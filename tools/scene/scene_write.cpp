@@ -111,6 +111,7 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     }
     if (file.town) json["town"] = townJson(*file.town, beside(file.town->file));
     if (!file.site.empty()) json["site"] = beside(file.site);
+    if (!file.pieces.empty()) json["pieces"] = beside(file.pieces);
     if (file.walk != ESP_WALK_INTRINSIC) json["walk"] = nameOf(file.walk);
     for (uint64_t branch : file.pruned) {
         char key[20];

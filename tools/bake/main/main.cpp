@@ -13,6 +13,7 @@
 #include "tools/bake/main/carry_layers.hpp"
 #include "tools/bake/main/folder.hpp"
 #include "tools/bake/main/options.hpp"
+#include "tools/bake/main/palette.hpp"
 #include "tools/bake/pictures.hpp"
 #include "tools/command_line.hpp"
 
@@ -146,6 +147,16 @@ int runTown(Arguments& arguments) {
     return baked ? 0 : fail(baked.failure());
 }
 
+int runPalette(const Arguments& arguments) {
+    if (const auto lost = writtenOver({arguments.model}, {arguments.output}))
+        return refuse(Failure(*lost, "the palette would overwrite what it is made of"));
+    const Status baked =
+        bakePalette({arguments.model, arguments.output, arguments.importing}, [&](const std::string& line) {
+            if (!arguments.quiet) std::fprintf(stderr, "%s\n", line.c_str());
+        });
+    return baked ? 0 : fail(baked.failure());
+}
+
 int bakeAsAsked(int argc, char** argv) {
     CLI::App app("Bakes a model, or all models of a folder, into surfaces that plants can grow on; or a town.",
                  "espalier-bake");
@@ -158,6 +169,7 @@ int bakeAsAsked(int argc, char** argv) {
         if (const auto mistake = mistakeIn(app, arguments, kind)) return refuse(*mistake);
         arguments.bake.nearestTolerance = float(arguments.tolerance);
         if (const auto& o = arguments.origin; o.size() == 3) arguments.importing.origin = glm::dvec3(o[0], o[1], o[2]);
+        if (arguments.pieces) return runPalette(arguments);
         if (kind == InputKind::town) return runTown(arguments);
         return kind == InputKind::folder ? runFolder(arguments, app) : runModel(arguments);
     } catch (const std::bad_alloc&) {

@@ -37,6 +37,14 @@ void addPlaces(CLI::App& app, Arguments& arguments) {
     app.add_flag("-q,--quiet", arguments.quiet, "no progress, warnings only");
 }
 
+void addPieces(CLI::App& app, Arguments& arguments) {
+    app.add_flag(
+           "--pieces", arguments.pieces,
+           "makes no surface, but a palette (.glb) of the model, or of all models of a folder, for patterns to place "
+           "(docs/patterns.md); of the other options those of importing count")
+        ->group(kOfModels);
+}
+
 void addModelOptions(CLI::App& app, Arguments& arguments) {
     app.add_option("--report", arguments.report, "write the report (JSON) here")->group(kOfModel);
     app.add_option("--images", arguments.images, "write charts, links, contacts and stretch as .png into this folder")
@@ -130,6 +138,7 @@ void addTownOptions(CLI::App& app, Arguments& arguments) {
 
 void addOptions(CLI::App& app, Arguments& arguments) {
     addPlaces(app, arguments);
+    addPieces(app, arguments);
     addModelOptions(app, arguments);
     addBakeOptions(app, arguments);
     addFolderOptions(app, arguments);

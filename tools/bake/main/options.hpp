@@ -23,6 +23,7 @@ struct Arguments {
     double tolerance = 0;
     unsigned jobs = 0;
     bool quiet = false;
+    bool pieces = false;  // a palette is asked for
 };
 
 void addOptions(CLI::App& app, Arguments& arguments);

@@ -1,0 +1,280 @@
+// In: models. Out: one .glb with KIND_lodN meshes, each with one material.
+#include "tools/bake/main/palette.hpp"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "shaders/emit/emit_records.h"
+#include "tools/bake/main/folder.hpp"
+#include "tools/content/glb.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr uint32_t kPlainSide = 8, kPictureSide = 256, kMostSide = 1024;  // texels of a material in the piece's picture
+constexpr size_t kMostVertices = 65'536;                                  // of a level
+constexpr size_t kColliderTriangles = 96;                                 // of a level fine enough to meet others by
+constexpr size_t kMostPieces = kMaxTerminalKinds - 1;
+
+struct Piece {
+    std::string name;
+    std::vector<content::Mesh> lods;
+    std::optional<content::Mesh> collider;  // by which it meets others, if no level is coarse enough
+    content::Picture picture;
+    bool repeats = false;  // the picture is a material's own
+    float roughness = 1;
+};
+
+std::string nameOf(const std::string& file) {
+    std::string name;
+    for (const char c : std::filesystem::path(file).stem().string())
+        if (std::isalnum(static_cast<unsigned char>(c))) name += c;
+    if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0]))) name = "piece" + name;
+    return name;
+}
+
+uint8_t stored(float linear) {
+    const float c = std::clamp(linear, 0.0f, 1.0f);
+    const float s = c <= .0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - .055f;
+    return uint8_t(s * 255 + .5f);
+}
+float linear(uint8_t stored) {
+    const float s = float(stored) / 255;
+    return s <= .04045f ? s / 12.92f : std::pow((s + .055f) / 1.055f, 2.4f);
+}
+
+// The mean of the source's texels that a texel of a side so long covers, times a colour.
+void paint(content::Picture& to, uint32_t left, uint32_t top, uint32_t side, const Picture* from, glm::vec4 colour) {
+    for (uint32_t y = 0; y < side; ++y)
+        for (uint32_t x = 0; x < side; ++x) {
+            glm::vec3 sum(0);
+            uint32_t count = 0;
+            if (from) {
+                const uint32_t x0 = x * from->width / side, y0 = y * from->height / side;
+                const uint32_t x1 = std::max((x + 1) * from->width / side, x0 + 1);
+                const uint32_t y1 = std::max((y + 1) * from->height / side, y0 + 1);
+                for (uint32_t v = y0; v < y1; ++v)
+                    for (uint32_t u = x0; u < x1; ++u, ++count) {
+                        const uint8_t* t = &from->rgba[(size_t(v) * from->width + u) * 4];
+                        sum += glm::vec3(linear(t[0]), linear(t[1]), linear(t[2]));
+                    }
+            }
+            const glm::vec3 mean = (count > 0 ? sum / float(count) : glm::vec3(1)) * glm::vec3(colour);
+            uint8_t* t = to.at(int(left + x), int(top + y));
+            for (int c = 0; c < 3; ++c) t[c] = stored(mean[c]);
+            t[3] = 255;
+        }
+}
+
+// Where each material's colours lie in the piece's one picture: cells of a square, or the whole picture.
+class Colours {
+  public:
+    Colours(const Model& model, Piece& piece) : model_(model) {
+        for (size_t t = 0; t < model.indices.size() / 3; ++t) cells_.emplace(materialOf(t), uint32_t(cells_.size()));
+        bool pictured = false;
+        float rough = 0;
+        for (const auto& [material, cell] : cells_) {
+            pictured = pictured || pictureOf(material);
+            rough += roughnessOf(material) / float(cells_.size());
+        }
+        piece.roughness = rough;
+        whole_ = cells_.size() == 1;
+        side_ = pictured ? kPictureSide : kPlainSide;
+        if (const Picture* only = whole_ ? pictureOf(cells_.begin()->first) : nullptr)
+            side_ = std::min(kMostSide, std::max(only->width, only->height));
+        piece.repeats = whole_ && pictured;
+        columns_ = uint32_t(std::ceil(std::sqrt(double(cells_.size()))));
+        piece.picture = content::Picture(int(columns_ * side_), int(columns_ * side_));
+        for (const auto& [material, cell] : cells_)
+            paint(piece.picture, cell % columns_ * side_, cell / columns_ * side_, side_, pictureOf(material),
+                  material < model.materials.size() ? model.materials[material].baseColor : glm::vec4(1));
+    }
+
+    uint32_t materialOf(size_t triangle) const {
+        return triangle < model_.triangleMaterial.size() ? model_.triangleMaterial[triangle] : 0;
+    }
+    glm::vec2 uvOf(uint32_t material, uint32_t vertex) const {
+        const std::vector<glm::vec2>& all = model_.materialUvs.empty() ? model_.uvs : model_.materialUvs;
+        glm::vec2 uv = vertex < all.size() ? all[vertex] : glm::vec2(.5f);
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y) || !pictureOf(material)) uv = glm::vec2(.5f);
+        if (whole_) return uv;
+        // Half a texel from the cell's edge, so that filtering takes nothing of its neighbours.
+        const float inner = 1 - 1 / float(side_);
+        const glm::vec2 within = glm::vec2(.5f / float(side_)) + (uv - glm::floor(uv)) * inner;
+        const uint32_t cell = cells_.at(material);
+        return (glm::vec2(cell % columns_, cell / columns_) + within) / float(columns_);
+    }
+
+  private:
+    const Picture* pictureOf(uint32_t material) const {
+        const int image = material < model_.materials.size() ? model_.materials[material].baseColorImage : -1;
+        return image >= 0 && size_t(image) < model_.images.size() && !model_.images[size_t(image)].rgba.empty()
+                   ? &model_.images[size_t(image)]
+                   : nullptr;
+    }
+    float roughnessOf(uint32_t material) const {
+        return material < model_.materials.size() ? model_.materials[material].roughness : 1;
+    }
+
+    const Model& model_;
+    std::map<uint32_t, uint32_t> cells_;  // by material
+    uint32_t side_ = 0, columns_ = 1;
+    bool whole_ = false;
+};
+
+std::vector<glm::vec3> normalsOf(const Model& model) {
+    if (!model.normals.empty()) return model.normals;
+    std::vector<glm::vec3> normals(model.positions.size(), glm::vec3(0));
+    for (size_t i = 0; i + 2 < model.indices.size(); i += 3) {
+        const uint32_t* t = &model.indices[i];
+        const glm::vec3 n =
+            glm::cross(model.positions[t[1]] - model.positions[t[0]], model.positions[t[2]] - model.positions[t[0]]);
+        for (int k = 0; k < 3; ++k) normals[t[k]] += n;
+    }
+    for (glm::vec3& n : normals) n = glm::length(n) > 0 ? glm::normalize(n) : glm::vec3(0, 1, 0);
+    return normals;
+}
+
+// Vertices apart for each material, in the scope's frame.
+Result<content::Mesh> wholeOf(const Model& model, const Colours& colours) {
+    glm::vec3 low(1e30f), high(-1e30f);
+    for (const uint32_t v : model.indices) {
+        low = glm::min(low, model.positions[v]);
+        high = glm::max(high, model.positions[v]);
+    }
+    const glm::vec3 size = high - low;
+    const float side = std::max(std::max(size.x, size.z), size.y * 1e-3f);
+    if (!(side > 0)) return Failure(model.name, "has no size");
+    const glm::vec3 foot((low.x + high.x) / 2, low.y, (low.z + high.z) / 2);
+    const std::vector<glm::vec3> normals = normalsOf(model);
+    content::Mesh mesh;
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> known;  // by vertex and material
+    for (size_t i = 0; i < model.indices.size(); ++i) {
+        const uint32_t v = model.indices[i], material = colours.materialOf(i / 3);
+        const auto [at, fresh] = known.emplace(std::pair(v, material), uint32_t(mesh.positions.size()));
+        if (fresh) {
+            mesh.positions.push_back((model.positions[v] - foot) / side);
+            mesh.normals.push_back(normals[v]);
+            mesh.uvs.push_back(colours.uvOf(material, v));
+        }
+        mesh.indices.push_back(at->second);
+    }
+    return mesh;
+}
+
+// So many triangles, or about as many as the shape allows.
+content::Mesh simplified(const content::Mesh& mesh, size_t triangles) {
+    std::vector<uint32_t> indices(mesh.indices.size());
+    float error = 0;
+    size_t count = meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), &mesh.positions[0].x,
+                                    mesh.positions.size(), sizeof(glm::vec3), triangles * 3, .3f, 0, &error);
+    indices.resize(count);
+    content::Mesh out;
+    std::map<uint32_t, uint32_t> known;
+    for (const uint32_t v : indices) {
+        const auto [at, fresh] = known.emplace(v, uint32_t(out.positions.size()));
+        if (fresh) {
+            out.positions.push_back(mesh.positions[v]);
+            out.normals.push_back(mesh.normals[v]);
+            out.uvs.push_back(mesh.uvs[v]);
+        }
+        out.indices.push_back(at->second);
+    }
+    return out;
+}
+
+content::Mesh boxAround(const content::Mesh& mesh) {
+    glm::vec3 low(1e30f), high(-1e30f);
+    for (const glm::vec3& p : mesh.positions) low = glm::min(low, p), high = glm::max(high, p);
+    content::Mesh box;
+    for (int i = 0; i < 8; ++i) {
+        box.positions.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+        box.normals.push_back(glm::normalize(box.positions.back() - (low + high) * .5f + glm::vec3(0, 1e-6f, 0)));
+        box.uvs.emplace_back(.5f, .5f);
+    }
+    for (const uint32_t i :
+         {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5})
+        box.indices.push_back(i);
+    return box;
+}
+
+Result<Piece> pieceOf(const std::string& file, const ImportOptions& importing) {
+    Result<Model> model = importModel(file, importing);
+    if (!model) return model.failure();
+    if (model->indices.empty()) return Failure(file, "has no triangles");
+    Piece piece;
+    piece.name = nameOf(file);
+    const Colours colours(*model, piece);
+    Result<content::Mesh> whole = wholeOf(*model, colours);
+    if (!whole) return whole.failure();
+    const size_t triangles = whole->indices.size() / 3;
+    const bool large = whole->positions.size() > kMostVertices;
+    piece.lods.push_back(large ? simplified(*whole, kMostVertices / 2) : *whole);
+    if (piece.lods[0].positions.size() > kMostVertices)
+        return Failure(file, "has more than 65,536 vertices, and can't be simplified");
+    for (size_t wanted = triangles / 4; piece.lods.size() < kMaxLods; wanted /= 4) {
+        const size_t before = piece.lods.back().indices.size() / 3;
+        if (before <= kColliderTriangles) break;
+        content::Mesh lod = simplified(*whole, std::max(wanted, kColliderTriangles));
+        if (lod.indices.empty() || lod.indices.size() / 3 > before * 3 / 4) break;
+        piece.lods.push_back(std::move(lod));
+    }
+    if (piece.lods.back().indices.size() / 3 > kColliderTriangles) piece.collider = boxAround(*whole);
+    return piece;
+}
+
+Result<std::vector<std::string>> filesOf(const PaletteArguments& arguments) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(arguments.input, ignored)) return std::vector<std::string>{arguments.input};
+    Result<std::vector<folder::Item>> items = folder::listModels(arguments.input, arguments.output);
+    if (!items) return items.failure();
+    std::vector<std::string> files;
+    for (const folder::Item& item : *items) {
+        const std::string file = (std::filesystem::path(arguments.input) / item.model).string();
+        if (!std::filesystem::equivalent(file, arguments.output, ignored)) files.push_back(file);
+    }
+    if (files.size() > kMostPieces)
+        return Failure(arguments.input, "holds " + std::to_string(files.size()) +
+                                            " models, and a palette has room for " + std::to_string(kMostPieces));
+    return files;
+}
+
+}  // namespace
+
+Status bakePalette(const PaletteArguments& arguments, const std::function<void(const std::string&)>& told) {
+    const Result<std::vector<std::string>> files = filesOf(arguments);
+    if (!files) return files.failure();
+    std::vector<Piece> pieces;
+    std::map<std::string, uint32_t> named;
+    for (const std::string& file : files.value()) {
+        Result<Piece> piece = pieceOf(file, arguments.importing);
+        if (!piece) return piece.failure();
+        if (const uint32_t before = named[piece->name]++) piece->name += "x" + std::to_string(before + 1);
+        told(piece->name + ": " + std::to_string(piece->lods[0].indices.size() / 3) + " triangles, " +
+             std::to_string(piece->lods.size()) + " levels, of " + file);
+        pieces.push_back(std::move(*piece));
+    }
+    content::Glb glb;
+    for (const Piece& piece : pieces) {
+        content::GlbMaterial material;
+        material.name = piece.name;
+        material.colorImage = int(glb.images.size());
+        material.roughness = piece.roughness;
+        material.repeat = piece.repeats;
+        glb.images.push_back({piece.name, content::encodePng(piece.picture, 3), true});
+        for (size_t lod = 0; lod < piece.lods.size(); ++lod)
+            glb.meshes.push_back(
+                {piece.name + "_lod" + std::to_string(lod), &piece.lods[lod], int(glb.materials.size())});
+        if (piece.collider)
+            glb.meshes.push_back({piece.name + "_collider_lod0", &*piece.collider, int(glb.materials.size())});
+        glb.materials.push_back(material);
+    }
+    return content::writeGlb(arguments.output, glb);
+}
+
+}  // namespace espalier
