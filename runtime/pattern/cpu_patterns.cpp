@@ -65,7 +65,7 @@ class CpuPatterns {
         do {
             StageList waves = patternStages({}, env_);
             runner_.run(waves);
-        } while (status_.wave > 0 && room_.holds(status_) && status_.pieces <= inputs_.limits.maxPieces);
+        } while (status_.wave > 0 && room_.holds(status_) && withinLimits(status_, inputs_.limits));
     }
 
     const PatternInputs& inputs_;

@@ -23,6 +23,8 @@ struct PieceMeshes {
 
 struct PatternLimits {
     uint32_t maxPieces = 4'000'000;  // tried, all in all
+    uint32_t maxShapes = 200'000;    // symbols derived, and as many more as shapesPerSet says
+    uint32_t shapesPerSet = 100;     // for each set that stands
     uint32_t maxDepth = 4096;        // productions one behind the other
 };
 

@@ -89,8 +89,7 @@ Result<PatternStatus> PatternGrowth::attempt(const PatternInputs& inputs, std::s
         if (Status finished = run->finish(); !finished) return finished.failure();
         dispatches_ += run->dispatches();
         const PatternStatus status = *run->got<PatternStatus>(0);
-        const bool done = status.wave == 0 || !room_.holds(status) || status.pieces > inputs.limits.maxPieces;
-        if (done) return status;
+        if (status.wave == 0 || !room_.holds(status) || !withinLimits(status, inputs.limits)) return status;
     }
 }
 

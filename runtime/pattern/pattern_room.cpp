@@ -40,10 +40,17 @@ std::vector<PatternItem> itemsOfPatternSeeds(const PatternInputs& inputs) {
 }
 
 Status withinLimits(const PatternStatus& status, const PatternLimits& limits) {
-    if (status.pieces <= limits.maxPieces) return Done{};
-    return Failure("pattern",
-                   "more than " + std::to_string(limits.maxPieces) +
-                       " meshes were tried; does a rule go on for ever? A condition or smaller steps end it");
+    if (status.pieces > limits.maxPieces)
+        return Failure("pattern",
+                       "more than " + std::to_string(limits.maxPieces) +
+                           " meshes were tried; does a rule go on for ever? A condition or larger steps end it");
+    if (std::max(status.shapes, status.mostItems) > limits.maxShapes + uint64_t(limits.shapesPerSet) * status.standing)
+        return Failure("pattern", std::to_string(status.shapes) + " symbols have led to only " +
+                                      std::to_string(status.standing) +
+                                      " meshes or locks that stand; does a rule go on for ever? A condition ends it, "
+                                      "or a mesh (IC) in the same "
+                                      "rule, before the symbol that goes on");
+    return Done{};
 }
 
 GrownPattern standingOf(std::span<const PatternPiece> pieces, std::span<const PatternSet> sets,

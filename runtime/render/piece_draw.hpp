@@ -16,17 +16,17 @@ namespace espalier {
 class PieceDraw {
   public:
     // meshes: by the numbers that pieces carry; kind 0 is none. Formats and samples of the picture that it draws into.
-    static Result<std::unique_ptr<PieceDraw>> create(Device& device, TerminalData meshes, VkFormat color, VkFormat depth,
-                                                     uint32_t samples);
+    static Result<std::unique_ptr<PieceDraw>> create(Device& device, TerminalData meshes, VkFormat color,
+                                                     VkFormat depth, uint32_t samples);
 
     // In place of all that stood.
     Status place(std::vector<PatternPiece> pieces);
     bool empty() const { return pieces_.empty(); }
-    uint64_t revision() const { return revision_; }  // another one whenever something else stands
+    uint64_t revision() const { return revision_; }      // another one whenever something else stands
     void bounds(glm::vec3& low, glm::vec3& high) const;  // of what stands; leaves them alone if nothing does
 
-    // What draw (drawDepth) draws: before its pass, whenever the view changed. lodPixels: error allowed. sunClip: world ->
-    // the sun's clip space.
+    // What draw (drawDepth) draws: before its pass, whenever the view changed. lodPixels: error allowed. sunClip: world
+    // -> the sun's clip space.
     Status choose(Commands& commands, const FrameRecord& frame, float lodPixels);
     Status chooseCasters(Commands& commands, const glm::mat4& sunClip, float texelsPerMetre);
     void draw(DrawPass& pass, const Buffer& frame, const Binding& shadow, Shading shading) const;

@@ -201,4 +201,11 @@ TEST_CASE("a rule without an end is stopped by a limit that is named") {
     const Result<GrownPattern> grown = scene.tryGrow({.maxPieces = 20000, .maxDepth = 4096});
     REQUIRE_FALSE(grown);
     CHECK(grown.failure().text().find("more than 20000 meshes") != std::string::npos);
+
+    Scene barren(patterntest::torus(2, .7f, 48, 24), 128);
+    barren.addGrammar("A -> [T(0.1, 0, 0) A] [T(0, 0.1, 0) A] B\nB -> T(0, 0, 1) : 0.5\nB -> S(0.1) IC(\"box\") : 0.5");
+    barren.plant({2.7f, 0, 0}, {0, 0, 1});
+    const Result<GrownPattern> none = barren.tryGrow({.maxShapes = 3000, .shapesPerSet = 10});
+    REQUIRE_FALSE(none);
+    CHECK(none.failure().text().find("does a rule go on for ever?") != std::string::npos);
 }

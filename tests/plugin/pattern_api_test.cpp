@@ -119,8 +119,7 @@ TEST_CASE("another palette is taken before a grammar knows the meshes, and a wro
     REQUIRE(espCreate(ESP_VERSION, &def, &life.context) == ESP_OK);
     CHECK(espSetPieces(life.context, "no such.glb") == ESP_IO_FAILED);
     CHECK(std::string(espLastError(life.context)).find("no such.glb") != std::string::npos);
-    REQUIRE_MESSAGE(espSetPieces(life.context, ESPALIER_CONTENT "/roofs.glb") == ESP_OK,
-                    espLastError(life.context));
+    REQUIRE_MESSAGE(espSetPieces(life.context, ESPALIER_CONTENT "/roofs.glb") == ESP_OK, espLastError(life.context));
     const std::string scales = "A -> IC(\"scale\")", battens = "A -> IC(\"batten\")";
     EspGrammarDef text = esp::grammarDef("scales", scales);
     CHECK(espCompileGrammar(life.context, &text, &life.grammar) == ESP_INVALID_CONTENT);

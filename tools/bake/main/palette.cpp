@@ -4,6 +4,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -167,6 +168,27 @@ Result<content::Mesh> wholeOf(const Model& model, const Colours& colours) {
     return mesh;
 }
 
+// One vertex at each place of the picture and the shape, whatever its normals: the edges of flat faces would hold them
+// fast when the mesh is made coarser.
+content::Mesh welded(const content::Mesh& mesh) {
+    content::Mesh out;
+    std::map<std::array<float, 5>, uint32_t> known;
+    for (const uint32_t v : mesh.indices) {
+        const glm::vec3 p = mesh.positions[v];
+        const auto [at, fresh] =
+            known.emplace(std::array{p.x, p.y, p.z, mesh.uvs[v].x, mesh.uvs[v].y}, uint32_t(out.positions.size()));
+        if (fresh) {
+            out.positions.push_back(p);
+            out.uvs.push_back(mesh.uvs[v]);
+            out.normals.push_back(glm::vec3(0));
+        }
+        out.normals[at->second] += mesh.normals[v];
+        out.indices.push_back(at->second);
+    }
+    for (glm::vec3& n : out.normals) n = glm::length(n) > 0 ? glm::normalize(n) : glm::vec3(0, 1, 0);
+    return out;
+}
+
 // So many triangles, or about as many as the shape allows.
 content::Mesh simplified(const content::Mesh& mesh, size_t triangles) {
     std::vector<uint32_t> indices(mesh.indices.size());
@@ -217,10 +239,11 @@ Result<Piece> pieceOf(const std::string& file, const ImportOptions& importing) {
     piece.lods.push_back(large ? simplified(*whole, kMostVertices / 2) : *whole);
     if (piece.lods[0].positions.size() > kMostVertices)
         return Failure(file, "has more than 65,536 vertices, and can't be simplified");
+    const content::Mesh joined = welded(*whole);
     for (size_t wanted = triangles / 4; piece.lods.size() < kMaxLods; wanted /= 4) {
         const size_t before = piece.lods.back().indices.size() / 3;
         if (before <= kColliderTriangles) break;
-        content::Mesh lod = simplified(*whole, std::max(wanted, kColliderTriangles));
+        content::Mesh lod = simplified(joined, std::max(wanted, kColliderTriangles));
         if (lod.indices.empty() || lod.indices.size() / 3 > before * 3 / 4) break;
         piece.lods.push_back(std::move(lod));
     }
