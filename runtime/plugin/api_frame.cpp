@@ -6,9 +6,8 @@
 #include "runtime/gpu/commands.hpp"
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/frame_inputs.hpp"
 #include "runtime/plugin/given.hpp"
-#include "runtime/plugin/painting.hpp"
-#include "runtime/plugin/shown_layers.hpp"
 #include "runtime/plugin/town_growth.hpp"
 #include "runtime/render/host_formats.hpp"
 #include "shaders/render/heat.h"
@@ -51,15 +50,6 @@ void setDefaults(EspDrawDef& def) {
 namespace {
 
 constexpr uint32_t kMostCharts = 65535;
-
-bool finiteLook(const EspLook& look) {
-    for (const float* v :
-         {look.sunDirection, look.sunColour, look.skyColour, look.groundColour, look.background, look.horizon})
-        if (!finite(v)) return false;
-    for (float v : {look.exposure, look.viewOpacity, look.lodPixels, look.leafPixels, look.groundLevel})
-        if (!std::isfinite(v)) return false;
-    return true;
-}
 
 // A camera that shows all surfaces and houses; its contract is espFrameAll's.
 EspCamera frameAll(const EspContext& context) {
@@ -139,10 +129,9 @@ const char* usageMissing(VkImageUsageFlags colour, VkImageUsageFlags depth) {
 }
 
 // What doesn't depend on where a frame is drawn.
-EspResult checkLook(const EspContext* context, const Wanted& wanted) {
+EspResult checkView(const EspContext* context, const Wanted& wanted) {
     const auto& [def, camera, look, brush, scene] = wanted;
-    if (!isAmong(look.view, ESP_VIEW_SHADED, ESP_VIEW_OVERDRAW))
-        return fail(context, ESP_INVALID_ARGUMENT, "espDraw: no such view");
+    if (EspResult bad = checkLook(context, "espDraw", look)) return bad;
     if (def.width < 1 || def.height < 1 || def.width > kMaxFrameSide || def.height > kMaxFrameSide)
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a frame is 1 to 16384 pixels wide and high");
     for (const float* v : {camera.eye, camera.target, camera.up})
@@ -150,7 +139,6 @@ EspResult checkLook(const EspContext* context, const Wanted& wanted) {
     if (!std::isfinite(camera.fovY) || !std::isfinite(camera.nearPlane) || !std::isfinite(camera.shift[0]) ||
         !std::isfinite(camera.shift[1]))
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: the camera is not finite");
-    if (!finiteLook(look)) return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a number of the look is not finite");
     if (!(std::abs(camera.shift[0]) < 100) || !(std::abs(camera.shift[1]) < 100) ||
         !(camera.fovY >= 0.001f && camera.fovY <= 3.1f) || !(camera.nearPlane > 0) ||
         vec(camera.eye) == vec(camera.target))
@@ -159,7 +147,7 @@ EspResult checkLook(const EspContext* context, const Wanted& wanted) {
 }
 
 EspResult checkDraw(const EspContext* context, const Wanted& wanted) {
-    if (EspResult bad = checkLook(context, wanted)) return bad;
+    if (EspResult bad = checkView(context, wanted)) return bad;
     const auto& [def, camera, look, brush, scene] = wanted;
     if (def.commandBuffer && (!def.colourImage || !def.colourView || !def.frame))
         return fail(context, ESP_INVALID_ARGUMENT,
@@ -184,89 +172,16 @@ EspResult checkDraw(const EspContext* context, const Wanted& wanted) {
     return ESP_OK;
 }
 
-bool isPainted(const EspContext& context, const std::string& name) {
-    return std::ranges::find(context.layers, name, &PaintedLayer::name) != context.layers.end() ||
-           (context.town && context.town->layers.find(name));
-}
-
-// Over surfaces; one that is painted, but that no grammar reads, gets a number to be seen by, if one is left.
-std::optional<uint32_t> layerToShow(EspContext& context, const std::string& name, std::span<const uint32_t> kept) {
-    const auto known = std::ranges::find(context.sceneLayers, name, &SceneLayer::name);
-    if (known != context.sceneLayers.end()) return uint32_t(known - context.sceneLayers.begin());
-    if (std::ranges::find(context.layers, name, &PaintedLayer::name) == context.layers.end()) return {};
-    return sceneLayer(context, name, 0, kept);
-}
-
-EspResult makeLook(EspContext& context, const EspLook& from, Look& look) {
-    look.sunDirection = vec(from.sunDirection);
-    look.sunColor = vec(from.sunColour);
-    look.skyColor = vec(from.skyColour);
-    look.groundColor = vec(from.groundColour);
-    look.exposure = from.exposure;
-    look.background = vec(from.background);
-    look.horizon = vec(from.horizon);
-    look.shadows = from.shadows != 0;
-    look.shadowsLag = from.shadowsLag != 0;
-    look.quick = from.quick != 0;
-    static_assert(uint32_t(ViewMode::charts) == ESP_VIEW_CHARTS && uint32_t(ViewMode::normals) == ESP_VIEW_NORMALS &&
-                  uint32_t(ViewMode::lod) == ESP_VIEW_LOD && uint32_t(ViewMode::layer) == ESP_VIEW_LAYER &&
-                  uint32_t(ViewMode::depth) == ESP_VIEW_DEPTH && uint32_t(ViewMode::overdraw) == ESP_VIEW_OVERDRAW);
-    look.view = ViewMode(from.view);
-    look.lodPixels = from.lodPixels;
-    look.leafPixels = from.leafPixels;
-    look.layerOpacity = from.viewOpacity;
-    look.level = from.viewLevel;
-    if (from.view == ESP_VIEW_LAYER && from.viewBrush) {
-        if (const char* mistake = mistakeIn(*from.viewBrush))
-            return fail(&context, ESP_INVALID_ARGUMENT, std::string("espDraw: viewBrush: ") + mistake);
-        look.limits = limitsOf(*from.viewBrush);
-    }
-    if (from.view == ESP_VIEW_LAYER) {
-        const std::string name = from.viewLayer ? from.viewLayer : "";
-        look.layer = shownLayers(name, [&](const std::string& layer, std::span<const uint32_t> kept) {
-            return layerToShow(context, layer, kept);
-        });
-        const auto known = [&](const std::string& layer) {
-            return declaredFill(context, layer) || isPainted(context, layer);
-        };
-        if (look.layer == kNoIndex && !known(name) && !known(name + kChannels[0]))
-            return fail(&context, ESP_INVALID_ARGUMENT, "espDraw: no grammar reads a layer '" + name + "'");
-    }
-    return ESP_OK;
-}
-
-// What a frame as it is wanted draws.
-EspResult findInputs(EspContext& context, const Wanted& wanted, DrawInputs& inputs) {
-    const auto& [def, camera, look, brush, scene] = wanted;
-    if (EspResult bad = makeLook(context, look, inputs.look)) return bad;
-    Status tables = context.refreshTables();
-    if (!tables) return failGpu(&context, tables.failure());
-    inputs.growth = context.growth->view();
-    if (context.town) {
-        inputs.roofs = &context.town->view;
-        inputs.ground = context.town->ground;
-        const bool shows = look.view == ESP_VIEW_LAYER && look.viewLayer;
-        context.town->view.shownLayer = shownTownLayer(context, shows ? look.viewLayer : "");
-    }
-    if (look.ground) {
-        inputs.ground.drawn = true;
-        inputs.ground.height = look.groundLevel;
-        inputs.ground.overgrows = look.groundOvergrows != 0;
-    }
-    if (def.scene) inputs.ground.drawn = false;  // the ground of a host's scene is the host's
-    inputs.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
-    const std::vector<Version> placed = context.carriersPlaced();
-    inputs.placed = placed;
-    inputs.layers = addressOf<LayerBuf>(context.layerTable);
-    inputs.camera = {vec(camera.eye), vec(camera.target), vec(camera.up),
-                     camera.fovY,     camera.nearPlane,   {camera.shift[0], camera.shift[1]}};
-    return ESP_OK;
+Camera cameraOf(const EspCamera& camera) {
+    return {vec(camera.eye), vec(camera.target), vec(camera.up),
+            camera.fovY,     camera.nearPlane,   {camera.shift[0], camera.shift[1]}};
 }
 
 EspResult draw(EspContext& context, const Wanted& wanted) {
     if (EspResult bad = checkDraw(&context, wanted)) return bad;
-    DrawInputs inputs;
-    if (EspResult bad = findInputs(context, wanted, inputs)) return bad;
+    FrameInputs inputs;
+    if (EspResult bad = findInputs(context, "espDraw", wanted.look, wanted.def.scene != nullptr, inputs)) return bad;
+    inputs.camera = cameraOf(wanted.camera);
     const EspDrawDef& def = wanted.def;
     const EspHostScene& scene = wanted.scene;
     DrawTarget target;
@@ -308,15 +223,16 @@ EspResult draw(EspContext& context, const Wanted& wanted) {
 // Draws a small picture as it is wanted, into images that nobody looks at.
 EspResult warmUp(EspContext& context, const Wanted& wanted) {
     constexpr uint32_t kSide = 32;
-    if (EspResult bad = checkLook(&context, wanted)) return bad;
+    if (EspResult bad = checkView(&context, wanted)) return bad;
     const EspHostScene& scene = wanted.scene;
     const VkFormat format = VkFormat(wanted.def.colourFormat);
     const bool hosted = wanted.def.scene != nullptr;
     if ((format != VK_FORMAT_UNDEFINED && !isHostPicture(format)) ||
         (hosted && (format == VK_FORMAT_UNDEFINED || !isDepthFormat(VkFormat(scene.depthFormat)))))
         return fail(&context, ESP_INVALID_ARGUMENT, "espWarmUp: frames are drawn into no such formats");
-    DrawInputs inputs;
-    if (EspResult bad = findInputs(context, wanted, inputs)) return bad;
+    FrameInputs inputs;
+    if (EspResult bad = findInputs(context, "espDraw", wanted.look, wanted.def.scene != nullptr, inputs)) return bad;
+    inputs.camera = cameraOf(wanted.camera);
     DrawTarget target;
     target.width = target.height = kSide;
     ImageDesc desc{.name = "warm-up", .format = format, .width = kSide, .height = kSide};
