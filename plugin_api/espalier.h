@@ -525,6 +525,7 @@ ESP_API EspResult espMaterialise(EspContext* context, EspTriangles* out);
 #endif
 
 #include "espalier_paint.h"
+#include "espalier_pass.h"
 #include "espalier_patterns.h"
 #include "espalier_plants.h"
 #include "espalier_roofs.h"

@@ -65,6 +65,12 @@ inline void setDefaults(EspLook& look) {
 inline void setDefaults(EspDrawDef& def) {
     (void)espDefaultDrawDef(&def);
 }
+inline void setDefaults(EspPassFormat& format) {
+    (void)espDefaultPassFormat(&format);
+}
+inline void setDefaults(EspPassDef& def) {
+    (void)espDefaultPassDef(&def);
+}
 inline void setDefaults(EspFieldDef& def) {
     (void)espDefaultFieldDef(&def);
 }

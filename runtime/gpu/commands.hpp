@@ -111,7 +111,7 @@ class Bindings {
 // recording are summed. Between dispatches of a pass there is no barrier but those you ask for.
 class Pass {
   public:
-    Pass(Commands& commands, std::string_view name);
+    Pass(Commands& commands, std::string_view name) : Pass(commands, name, true) {}
     ~Pass();
     Pass(const Pass&) = delete;
     Pass& operator=(const Pass&) = delete;
@@ -127,11 +127,12 @@ class Pass {
     Commands& commands() { return commands_; }
 
   protected:
+    Pass(Commands& commands, std::string_view name, bool timed);
     void bind(const Program& program, const Push& push, Bindings bindings);
     Commands& commands_;
     const DeviceFunctions& vk_;
     VkCommandBuffer cmd_;
-    uint32_t timer_;
+    std::optional<uint32_t> timer_;
 };
 
 struct ColorTarget {
@@ -154,12 +155,16 @@ struct DrawTargets {
 class DrawPass : public Pass {
   public:
     DrawPass(Commands& commands, std::string_view name, const DrawTargets& targets);
+    // In rendering that somebody else has begun and will end. It isn't timed.
+    DrawPass(Commands& commands, std::string_view name, const VkViewport& viewport);
     ~DrawPass();
 
     void setScissor(int32_t x, int32_t y, uint32_t width, uint32_t height);
     void setViewport(const VkViewport& viewport);
     // Whether triangles' backs are drawn too; at first they are.
     void drawBacks(bool drawn);
+    // The view is seen in a mirror, or isn't: at first it isn't.
+    void mirror(bool mirrored);
     // For programs with GraphicsDesc::inputs.
     void setVertices(const Buffer& vertices, uint64_t offset = 0);
     void setIndices(const Buffer& indices, VkIndexType type = VK_INDEX_TYPE_UINT32, uint64_t offset = 0);
@@ -177,6 +182,9 @@ class DrawPass : public Pass {
                       Bindings bindings = {});
     void drawIndexedIndirect(const Program& program, const Buffer& arguments, uint64_t offset, uint32_t count,
                              Push push = {}, Bindings bindings = {});
+
+  private:
+    bool begun_ = false;  // by us
 };
 
 }  // namespace espalier

@@ -35,7 +35,7 @@ namespace espalier {
     F(vkCmdWriteTimestamp2) F(vkCmdPipelineBarrier2) F(vkCmdBindPipeline) F(vkCmdPushConstants) F(vkCmdDispatch) \
     F(vkCmdDispatchIndirect) F(vkCmdFillBuffer) F(vkCmdUpdateBuffer) F(vkCmdCopyBuffer) \
     F(vkCmdCopyBufferToImage) F(vkCmdCopyImageToBuffer) F(vkCmdBlitImage) F(vkCmdBeginRendering) \
-    F(vkCmdEndRendering) F(vkCmdSetViewport) F(vkCmdSetScissor) F(vkCmdSetCullMode) F(vkCmdBindIndexBuffer) F(vkCmdBindVertexBuffers) F(vkCmdDraw) \
+    F(vkCmdEndRendering) F(vkCmdSetViewport) F(vkCmdSetScissor) F(vkCmdSetCullMode) F(vkCmdSetFrontFace) F(vkCmdBindIndexBuffer) F(vkCmdBindVertexBuffers) F(vkCmdDraw) \
     F(vkCmdDrawIndexed) F(vkCmdDrawIndirect) F(vkCmdDrawIndexedIndirect) \
     F(vkCmdPushDescriptorSetKHR)
 #define ESPALIER_DEVICE_FUNCTIONS_OPTIONAL(F) \

@@ -1,6 +1,7 @@
 // Dispatches and draws: binding, push data and descriptors from what the program's SPIR-V says.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "runtime/core/check.hpp"
 #include "runtime/gpu/commands.hpp"
@@ -44,7 +45,7 @@ void beginRendering(const DeviceFunctions& vk, VkCommandBuffer commands, const D
 
 }  // namespace
 
-Pass::Pass(Commands& commands, std::string_view name)
+Pass::Pass(Commands& commands, std::string_view name, bool timed)
     : commands_(commands), vk_(commands.device().vk()), cmd_(commands.handle()) {
     if (vk_.vkCmdBeginDebugUtilsLabelEXT) {
         const std::string text(name);
@@ -52,11 +53,11 @@ Pass::Pass(Commands& commands, std::string_view name)
         label.pLabelName = text.c_str();
         vk_.vkCmdBeginDebugUtilsLabelEXT(cmd_, &label);
     }
-    timer_ = commands.device().timers().start(cmd_, commands.serial(), name);
+    if (timed) timer_ = commands.device().timers().start(cmd_, commands.serial(), name);
 }
 
 Pass::~Pass() {
-    commands_.device().timers().stop(cmd_, timer_);
+    if (timer_) commands_.device().timers().stop(cmd_, *timer_);
     if (vk_.vkCmdEndDebugUtilsLabelEXT) vk_.vkCmdEndDebugUtilsLabelEXT(cmd_);
 }
 
@@ -120,19 +121,34 @@ void Pass::dispatchIndirect(const Program& program, const Buffer& arguments, uin
     vk_.vkCmdDispatchIndirect(cmd_, arguments.handle(), offset);
 }
 
-DrawPass::DrawPass(Commands& commands, std::string_view name, const DrawTargets& targets) : Pass(commands, name) {
+DrawPass::DrawPass(Commands& commands, std::string_view name, const DrawTargets& targets)
+    : Pass(commands, name), begun_(true) {
     beginRendering(vk_, cmd_, targets);
     setViewport({0, 0, float(targets.extent.width), float(targets.extent.height), 0, 1});
     setScissor(0, 0, targets.extent.width, targets.extent.height);
     drawBacks(true);
+    mirror(false);
+}
+
+DrawPass::DrawPass(Commands& commands, std::string_view name, const VkViewport& viewport)
+    : Pass(commands, name, false) {
+    setViewport(viewport);
+    const float top = std::min(viewport.y, viewport.y + viewport.height);
+    setScissor(int32_t(viewport.x), int32_t(top), uint32_t(viewport.width), uint32_t(std::abs(viewport.height)));
+    drawBacks(true);
+    mirror(false);
 }
 
 DrawPass::~DrawPass() {
-    vk_.vkCmdEndRendering(cmd_);
+    if (begun_) vk_.vkCmdEndRendering(cmd_);
 }
 
 void DrawPass::drawBacks(bool drawn) {
     vk_.vkCmdSetCullMode(cmd_, drawn ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
+}
+
+void DrawPass::mirror(bool mirrored) {
+    vk_.vkCmdSetFrontFace(cmd_, mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
 }
 
 void DrawPass::setScissor(int32_t x, int32_t y, uint32_t width, uint32_t height) {

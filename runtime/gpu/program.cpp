@@ -87,10 +87,10 @@ VkPipelineColorBlendAttachmentState blendState(Blend blend) {
 
 // The fixed-function state of a graphics pipeline; create() fills the rest. Not copyable: it points into itself.
 struct FixedFunctions {
-    explicit FixedFunctions(const GraphicsDesc& d) : blends(d.colors.size(), blendState(d.blend)) {
+    explicit FixedFunctions(const GraphicsDesc& d) : blends(d.colors.size()) {
+        if (!blends.empty()) blends[0] = blendState(d.blend);  // writes to the others are masked out
         assembly.topology = d.topology;
         viewport.viewportCount = viewport.scissorCount = 1;
-        raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
         raster.lineWidth = 1;
         raster.depthBiasEnable = d.depthBiasConstant != 0 || d.depthBiasSlope != 0;
         raster.depthBiasConstantFactor = d.depthBiasConstant;
@@ -112,11 +112,12 @@ struct FixedFunctions {
         rendering.colorAttachmentCount = uint32_t(d.colors.size());
         rendering.pColorAttachmentFormats = d.colors.data();
         rendering.depthAttachmentFormat = d.depth;
+        rendering.stencilAttachmentFormat = d.stencil;
     }
     FixedFunctions(const FixedFunctions&) = delete;
 
     static constexpr VkDynamicState dynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
-                                                       VK_DYNAMIC_STATE_CULL_MODE};
+                                                       VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE};
     VkPipelineVertexInputStateCreateInfo vertexInput{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
     VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
@@ -211,7 +212,10 @@ Result<Program> Program::graphics(Device& device, const GraphicsDesc& desc) {
     if (Status status = p.makeLayout(device, shapes); !status) return status.failure();
 
     const FixedFunctions fixed(desc);
-    VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &fixed.rendering};
+    VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
+    if (desc.renderPass == VK_NULL_HANDLE) info.pNext = &fixed.rendering;
+    info.renderPass = desc.renderPass;
+    info.subpass = desc.subpass;
     info.stageCount = uint32_t(stages.size());
     info.pStages = stages.data();
     info.pVertexInputState = &fixed.vertexInput;

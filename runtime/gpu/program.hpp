@@ -40,8 +40,11 @@ struct GraphicsDesc {
     std::string_view fragment;        // empty: depth only
     std::vector<VertexInput> inputs;  // of DrawPass::setVertices; none: vertices are pulled by gl_VertexIndex
     uint32_t vertexBytes = 0;         // from one vertex to the next
-    std::vector<VkFormat> colors;
+    std::vector<VkFormat> colors;     // the fragment shader writes the first; others stay as they are
     VkFormat depth = VK_FORMAT_UNDEFINED;
+    VkFormat stencil = VK_FORMAT_UNDEFINED;    // of an attachment that is there and left alone
+    VkRenderPass renderPass = VK_NULL_HANDLE;  // of a host's; null: dynamic rendering
+    uint32_t subpass = 0;
     bool depthWrite = true;
     VkCompareOp depthCompare = VK_COMPARE_OP_LESS_OR_EQUAL;
     float depthBiasConstant = 0;

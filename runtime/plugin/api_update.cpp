@@ -215,6 +215,7 @@ EspResult espWatchGrowth(EspContext* context, EspGrowingFn growing, void* user) 
 EspResult espUpdate(EspContext* context) {
     return guarded(context, [&] {
         context->device->hostSubmitted();  // as espalier.h asks for; a host that draws no more tells no more of frames
+        context->renderer->unprepare();
         const EspResult town = updateTown(*context);
         const std::string why = context->error;
         const EspResult plants = updatePlants(*context);

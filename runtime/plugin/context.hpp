@@ -112,6 +112,7 @@ struct EspContext {
 
     bool hasPicture = false;
     uint32_t pictureWidth = 0, pictureHeight = 0;
+    uint64_t preparedFrame = 0;  // the host's, of the last espPrepare
     std::vector<std::byte> vertices, indices;  // of the last espMaterialise, until something grows
 
     // An input of plants changed in a way that only a full growth answers.

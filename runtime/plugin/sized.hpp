@@ -25,6 +25,8 @@ void setDefaults(EspCamera& camera);
 void setDefaults(EspGrowDef& def);
 void setDefaults(EspDrawDef& def);
 void setDefaults(EspFieldDef& def);
+void setDefaults(EspPassDef& def);
+void setDefaults(EspPassFormat& format);
 void setDefaults(EspLayerDef& def);
 void setDefaults(EspLook& look);
 void setDefaults(EspSeedDef& def);

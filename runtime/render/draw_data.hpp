@@ -8,6 +8,7 @@
 
 #include "runtime/emit/emit.hpp"
 #include "runtime/render/ground.hpp"
+#include "runtime/render/pass_format.hpp"
 #include "runtime/render/piece_draw.hpp"
 #include "runtime/render/props.hpp"
 #include "runtime/render/roof_draw.hpp"
@@ -84,6 +85,15 @@ struct DrawTarget {
     VkImageView view = VK_NULL_HANDLE;
     VkFormat format = VK_FORMAT_R8G8B8A8_UNORM;
     HostScene host{};  // only with an image; not with ViewMode::overdraw
+};
+
+// A pass that a host begins and ends. Its view is by matrices: world -> eye, rigid or mirroring, and eye -> clip.
+struct PassView {
+    PassFormat format;
+    VkViewport viewport{};  // a negative height: y goes up in it
+    glm::mat4 view{1}, projection{1};
+    float focus = 20;     // metres ahead around which shadows of wide scenes are finest
+    bool models = false;  // draw the surfaces too
 };
 
 struct RenderStats {

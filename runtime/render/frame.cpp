@@ -89,6 +89,37 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     return frame;
 }
 
+ViewShape::ViewShape(const PassView& pass) {
+    const glm::mat4& p = pass.projection;
+    const glm::mat4 back = glm::inverse(pass.view);
+    parallel = p[2][3] == 0;
+    // Eye space may go either way along its z.
+    const bool along = parallel ? (p[2][2] > 0) != pass.format.reversed : p[2][3] > 0;
+    const float unit = std::abs(parallel ? p[3][3] : p[2][3]);
+    pixelScale = std::abs(pass.viewport.height) * 0.5f * glm::length(glm::vec2(p[0][1], p[1][1])) / unit;
+    const float turn = glm::determinant(glm::mat3(pass.view)) * (p[0][0] * p[1][1] - p[0][1] * p[1][0]);
+    mirrored = (turn > 0) == ((pass.viewport.height > 0) != along);
+    camera.eye = glm::vec3(back[3]);
+    camera.target = camera.eye + glm::vec3(back[2]) * (along ? pass.focus : -pass.focus);
+    camera.up = glm::vec3(back[1]);
+    camera.nearPlane = kLeastNearPlane;
+    culling = p * pass.view;
+    for (int c = 0; c < 4; ++c) culling[c][2] = 0;
+    culling[3][2] = parallel ? 0 : kLeastNearPlane * unit;
+}
+
+FrameRecord makeFrame(const DrawInputs& inputs, const PassView& pass, const ViewShape& shape) {
+    constexpr float kFarAway = 1e6f;  // metres
+    FrameRecord frame =
+        makeFrame(inputs, uint32_t(pass.viewport.width), uint32_t(std::max(std::abs(pass.viewport.height), 1.0f)));
+    frame.viewProjection = pass.projection * pass.view;
+    frame.pixelScale = shape.pixelScale;
+    if (!shape.parallel) return frame;
+    frame.eye += glm::normalize(shape.camera.eye - shape.camera.target) * kFarAway;
+    frame.pixelScale *= kFarAway;
+    return frame;
+}
+
 SunView makeSunView(glm::vec3 sunDirection, glm::vec3 center, float radius, float towards) {
     glm::vec3 right, up;
     const glm::vec3 forward = -unitOr(sunDirection, {0, 1, 0});

@@ -13,6 +13,20 @@ constexpr float kLeastNearPlane = 1e-4f;  // metres
 // A camera and a look as the shaders want them. Sizes in pixels.
 FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height);
 
+// What a view by matrices is.
+struct ViewShape {
+    explicit ViewShape(const PassView& pass);
+
+    bool parallel = false;  // of one scale everywhere
+    bool mirrored = false;
+    float pixelScale = 1;  // pixels of a metre, at a metre's distance where it isn't parallel
+    Camera camera;         // that looks the same way
+    glm::mat4 culling{1};  // world -> clip, but for depths: nothing is too far or, but what is behind, too near
+};
+// The record by which a pass draws. Where the view is parallel, the eye stands so far behind that it looks the same
+// way everywhere.
+FrameRecord makeFrame(const DrawInputs& inputs, const PassView& pass, const ViewShape& shape);
+
 // The sun's parallel projection over a sphere, world -> clip, depth 0 near the sun to 1.
 struct SunView {
     glm::mat4 toClip{1};

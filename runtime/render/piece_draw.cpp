@@ -16,8 +16,7 @@ constexpr float kLeastPiece = 0.35f;  // radius below which a piece isn't drawn
 
 }  // namespace
 
-Result<std::unique_ptr<PieceDraw>> PieceDraw::create(Device& device, TerminalData meshes, VkFormat color,
-                                                     VkFormat depth, uint32_t samples) {
+Result<std::unique_ptr<PieceDraw>> PieceDraw::create(Device& device, TerminalData meshes) {
     std::unique_ptr<PieceDraw> draw(new PieceDraw(device));
     Result<Terminals> terminals = Terminals::create(device, std::move(meshes), TerminalChoice::cpu);
     if (!terminals) return terminals.failure();
@@ -26,34 +25,14 @@ Result<std::unique_ptr<PieceDraw>> PieceDraw::create(Device& device, TerminalDat
                                                                    .anisotropy = device.info().traits.anisotropy}));
         !s)
         return s.failure();
-    if (Status s = draw->makePrograms(color, depth, samples); !s) return s.failure();
     return draw;
 }
 
-Status PieceDraw::makePrograms(VkFormat color, VkFormat depth, uint32_t samples) {
-    GraphicsDesc shadow;
-    shadow.name = "piece shadow";
-    shadow.vertex = "render/piece.vert";
-    shadow.depth = depth;
-    shadow.options.constants = constantsOf(Shading::full, holdsRoots(device_));
-    shadow.depthBiasConstant = 2;
-    shadow.depthBiasSlope = 1.8f;
-    if (Status made = assign(depth_, Program::graphics(device_, shadow)); !made) return made;
-    for (uint32_t s = 0; s < kShadings; ++s) {
-        if (!isAskedOf(device_, Shading(s))) continue;
-        GraphicsDesc desc;
-        desc.name = "piece";
-        desc.vertex = "render/piece.vert";
-        desc.fragment = "render/piece.frag";
-        desc.depth = depth;
-        desc.options.constants = constantsOf(Shading(s), holdsRoots(device_));
-        desc.colors = {color};
-        desc.blend = blendOf(Shading(s));
-        desc.samples = samples;
-        desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-        if (Status made = assign(built_[s], Program::graphics(device_, desc)); !made) return made;
-    }
-    return Done{};
+Result<Program> PieceDraw::program(Device& device, const PassFormat& pass, Shading shading) {
+    GraphicsDesc desc = inPass(pass, "piece", "render/piece.vert", pass.colors.empty() ? "" : "render/piece.frag",
+                               constantsOf(shading, holdsRoots(device)));
+    desc.blend = blendOf(shading);
+    return Program::graphics(device, desc);
 }
 
 const VariantRecord* PieceDraw::variantOf(const PatternPiece& piece) const {
@@ -156,8 +135,8 @@ Status PieceDraw::upload(Commands& commands, std::span<const std::vector<Pattern
     return Done{};
 }
 
-void PieceDraw::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Binding* shadow,
-                         Shading shading) const {
+void PieceDraw::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Program& program,
+                         const Binding* shadow) const {
     const TerminalTable& table = terminals_.table();
     pass.setIndices(terminals_.batches());
     for (const Run& run : chosen.runs) {
@@ -171,19 +150,11 @@ void PieceDraw::drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& fra
         const DrawPass::IndexRange range{bucket.indexCount, bucket.firstIndex, int32_t(bucket.firstVertex), run.count};
         const Binding texels(chosen.texels), meshes(terminals_.vertexTexels());
         if (shadow)
-            pass.drawIndexed(built_[size_t(shading)], range, push,
+            pass.drawIndexed(program, range, push,
                              {{terminals_.baseColor(bucket.material), sampler_}, *shadow, frame, texels, meshes});
         else
-            pass.drawIndexed(depth_, range, push, {frame, texels, meshes});
+            pass.drawIndexed(program, range, push, {frame, texels, meshes});
     }
-}
-
-void PieceDraw::draw(DrawPass& pass, const Buffer& frame, const Binding& shadow, Shading shading) const {
-    drawRuns(pass, inView_, frame, &shadow, shading);
-}
-
-void PieceDraw::drawDepth(DrawPass& pass, const Buffer& frame) const {
-    drawRuns(pass, casters_, frame, nullptr, Shading::full);
 }
 
 PieceDraw::Stats PieceDraw::stats() const {

@@ -6,6 +6,7 @@
 
 #include "runtime/emit/terminals.hpp"
 #include "runtime/gpu/commands.hpp"
+#include "runtime/render/pass_format.hpp"
 #include "runtime/render/shading.hpp"
 #include "shaders/render/piece_records.h"
 #include "shaders/shared/pattern_piece.h"
@@ -15,9 +16,10 @@ namespace espalier {
 // Picks a level of detail for each piece in view on the CPU, and draws each level's pieces at once.
 class PieceDraw {
   public:
-    // meshes: by the numbers that pieces carry; kind 0 is none. Formats and samples of the picture that it draws into.
-    static Result<std::unique_ptr<PieceDraw>> create(Device& device, TerminalData meshes, VkFormat color,
-                                                     VkFormat depth, uint32_t samples);
+    // meshes: by the numbers that pieces carry; kind 0 is none.
+    static Result<std::unique_ptr<PieceDraw>> create(Device& device, TerminalData meshes);
+    // What pieces are drawn with in one kind of pass.
+    static Result<Program> program(Device& device, const PassFormat& pass, Shading shading);
 
     // In place of all that stood.
     Status place(std::vector<PatternPiece> pieces);
@@ -25,12 +27,18 @@ class PieceDraw {
     uint64_t revision() const { return revision_; }      // another one whenever something else stands
     void bounds(glm::vec3& low, glm::vec3& high) const;  // of what stands; leaves them alone if nothing does
 
-    // What draw (drawDepth) draws: before its pass, whenever the view changed. lodPixels: error allowed. sunClip: world
+    // What draw (drawCasters) draws: before its pass, whenever the view changed. lodPixels: error allowed. sunClip:
+    // world
     // -> the sun's clip space.
     Status choose(Commands& commands, const FrameRecord& frame, float lodPixels);
     Status chooseCasters(Commands& commands, const glm::mat4& sunClip, float texelsPerMetre);
-    void draw(DrawPass& pass, const Buffer& frame, const Binding& shadow, Shading shading) const;
-    void drawDepth(DrawPass& pass, const Buffer& frame) const;
+    // Depth only without a shadow map.
+    void draw(DrawPass& pass, const Buffer& frame, const Program& program, const Binding* shadow) const {
+        drawRuns(pass, inView_, frame, program, shadow);
+    }
+    void drawCasters(DrawPass& pass, const Buffer& frame, const Program& program) const {
+        drawRuns(pass, casters_, frame, program, nullptr);
+    }
     void forget() { chosenFor_ = {}; }  // the last recording won't be submitted
 
     struct Stats {
@@ -59,17 +67,15 @@ class PieceDraw {
         glm::vec3 centre;
         float radius, scale;  // scale: the longest axis
     };
-    Status makePrograms(VkFormat color, VkFormat depth, uint32_t samples);
     Status upload(Commands& commands, std::span<const std::vector<PatternPiece>> levels, Chosen& out) const;
-    void drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Binding* shadow,
-                  Shading shading) const;
+    void drawRuns(DrawPass& pass, const Chosen& chosen, const Buffer& frame, const Program& program,
+                  const Binding* shadow) const;
     const VariantRecord* variantOf(const PatternPiece& piece) const;  // null: its mesh is missing
 
     Device& device_;
     Terminals terminals_;
     std::vector<PatternPiece> pieces_;
     std::vector<Sphere> spheres_;
-    Program built_[kShadings], depth_;
     Sampler sampler_;
     Chosen inView_, casters_;
     View chosenFor_;

@@ -26,13 +26,6 @@ DrawTargets onto(VkExtent2D extent, VkImageView view) {
     return targets;
 }
 
-// Pixels. Views of the walk's UV square want the mesh that has it everywhere; a layer while all moves does with less.
-float allowedModelError(const Look& look, bool grows) {
-    if (look.view == ViewMode::charts || (look.view == ViewMode::layer && !look.quick)) return 0;
-    const float grown = look.quick ? kQuickGrown * look.lodPixels : kGrownPixels;
-    return grows ? std::min(look.lodPixels, grown) : look.lodPixels;
-}
-
 // Rows of pixels from the top that lie above all hills. Both ends of a row above the horizon are lower than what is
 // between them.
 uint32_t rowsAboveHills(const FrameRecord& frame, uint32_t height) {
@@ -48,8 +41,15 @@ uint32_t rowsAboveHills(const FrameRecord& frame, uint32_t height) {
 
 }  // namespace
 
+// Views of the walk's UV square want the mesh that has it everywhere; a layer while all moves does with less.
+float allowedModelError(const Look& look, bool grows) {
+    if (look.view == ViewMode::charts || (look.view == ViewMode::layer && !look.quick)) return 0;
+    const float grown = look.quick ? kQuickGrown * look.lodPixels : kGrownPixels;
+    return grows ? std::min(look.lodPixels, grown) : look.lodPixels;
+}
+
 Result<std::vector<RoofMesh>> Renderer::loadRoofMeshes(TerminalData meshes) {
-    auto made = RoofDraw::create(device_, std::move(meshes), kSceneFormat, kDepthFormat, targets_.samples);
+    auto made = RoofDraw::create(device_, std::move(meshes));
     if (!made) return made.failure();
     roofs_ = std::move(*made);
     return roofs_->bounds();
@@ -79,27 +79,27 @@ Status Renderer::removeProps() {
 }
 
 Status Renderer::loadPieces(TerminalData meshes) {
-    auto made = PieceDraw::create(device_, std::move(meshes), kSceneFormat, kDepthFormat, targets_.samples);
+    auto made = PieceDraw::create(device_, std::move(meshes));
     if (!made) return made.failure();
     pieces_ = std::move(*made);
     return Done{};
 }
 
 Status Renderer::placePieces(std::vector<PatternPiece> pieces) {
+    unprepare();
     require(pieces_ || pieces.empty(), "pieces have meshes");
     return pieces_ ? pieces_->place(std::move(pieces)) : Status(Done{});
 }
 
-Models::Drawn Renderer::modelsDrawn(const DrawInputs& inputs) const {
-    const bool onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
+Models::Drawn Renderer::modelsDrawn() const {
     return {{&now_.scene->model, &now_.scene->modelFoot},
             {&now_.scene->modelMapped, &now_.scene->modelMappedFoot},
             *now_.frame,
             {shadowMap_, shadowSampler_},
             ground_,
             now_.shading,
-            inputs.surfaces.v != nullptr,
-            !onGround,
+            now_.walkData,
+            !now_.onGround,
             now_.glass,
             now_.meadowLevel,
             now_.unit};
@@ -113,7 +113,7 @@ void Renderer::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const 
         if (isQuick(now_.shading)) part.emplace(pass.commands(), name);
     };
     begin("draw models");
-    models_.draw(pass, modelsDrawn(inputs));
+    models_.draw(pass, modelsDrawn());
     if (now_.furnished) {
         begin("draw props");
         props_->draw(pass, *now_.frame, {shadowMap_, shadowSampler_},
@@ -179,10 +179,14 @@ Status Renderer::cullGrowth(Commands& commands, const DrawInputs& inputs, const 
     view.tilePixels = kDepthTile;
     const uint64_t models = now_.hosted ? 0 : models_.revision();
     if (Status s = depthTiles_.find(commands, targets_.depth, pointSampler_, models, view); !s) return s;
-    thinOut(view, inputs.look.leafPixels);
     if (inputs.look.quick && device_.info().traits.quickPictures) view.flags |= kStretches;
-    view.scene = sceneOf(inputs);
     if (isQuick(now_.shading) && !now_.hosted) depthTiles_.lookBack(device_, models, view);
+    return cullGrowth(commands, inputs, view);
+}
+
+Status Renderer::cullGrowth(Commands& commands, const DrawInputs& inputs, EmitView view) {
+    thinOut(view, inputs.look.leafPixels);
+    view.scene = sceneOf(inputs);
     if (now_.roofed)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;
     if (!now_.grows) return Done{};
@@ -210,23 +214,24 @@ void Renderer::drawGrowth(Commands& commands, const DrawInputs& inputs, const Fr
     targets.depth->view = targets_.depth.view();
     if (now_.ahead) targets.colors[0].clear = std::array<float, 4>{0, 0, 0, 0};
     DrawPass pass(commands, "draw scene", targets);
+    const Binding shadow{shadowMap_, shadowSampler_};
     if (now_.grows) drawTerminals(pass, false);
     if (now_.roofed) {
         std::optional<Pass> part;
         if (isQuick(now_.shading)) part.emplace(commands, "draw roofs");
-        roofs_->draw(pass, *now_.frame, &shadowMap_, &shadowSampler_, now_.shading);
+        roofs_->draw(pass, *now_.frame, now_.scene->roof, &shadow);
     }
     if (now_.patterned) {
         std::optional<Pass> part;
         if (isQuick(now_.shading)) part.emplace(commands, "draw patterns");
-        pieces_->draw(pass, *now_.frame, {shadowMap_, shadowSampler_}, now_.shading);
+        pieces_->draw(pass, *now_.frame, now_.scene->piece, &shadow);
     }
     if (now_.ahead) drawSurroundings(pass, inputs, post);
     if (!now_.hosted) drawSky(pass, frame, post);
     if (now_.glass) {
         std::optional<Pass> part;
         if (isQuick(now_.shading)) part.emplace(commands, "draw glass");
-        models_.drawGlass(pass, modelsDrawn(inputs), {now_.scene->tint, now_.scene->glass}, frame.rayForward);
+        models_.drawGlass(pass, modelsDrawn(), {now_.scene->tint, now_.scene->glass}, frame.rayForward);
     }
 }
 
@@ -281,6 +286,7 @@ Status Renderer::draw(Commands& commands, const DrawInputs& inputs, const DrawTa
 
 // Nor are images where the recording would have left them.
 void Renderer::forget() {
+    unprepare();
     emit_.forget();
     if (props_) props_->forget();
     if (pieces_) pieces_->forget();
@@ -292,23 +298,30 @@ void Renderer::forget() {
     wide_.clear();
 }
 
+void Renderer::begin(const DrawInputs& inputs, PassFormat pass) {
+    now_ = {};
+    now_.pass = std::move(pass);
+    now_.grows = inputs.growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
+    now_.roofed = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
+    now_.patterned = pieces_ && !pieces_->empty();
+    now_.walkData = inputs.surfaces.v != nullptr;
+    now_.onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
+}
+
 Status Renderer::drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target) {
     require(target.width > 0 && target.height > 0 && target.width <= kMaxFrameSide && target.height <= kMaxFrameSide,
             "a picture is 1 to 16384 pixels wide and high");
-    now_ = {};
+    begin(inputs, scenePass(targets_.samples));
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;
-    const GrowthView& growth = inputs.growth;
     now_.hosted = target.image && target.host.depth;
+    now_.furnished = props_ && !props_->empty() && !now_.hosted;
+    if (Status s = pickDepths(shadowPass()); !s) return s;
     if (Status s = pickScene(shownView(inputs), inputs.look.quick); !s) return s;
-    now_.grows = growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
-    now_.roofed = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
     if (now_.hosted && !merge_) {
         auto made = HostMerge::create(device_, targets_.samples);
         if (!made) return made.failure();
         merge_ = std::move(*made);
     }
-    now_.furnished = props_ && !props_->empty() && !now_.hosted;
-    now_.patterned = pieces_ && !pieces_->empty();
 
     FrameRecord frame = makeFrame(inputs, target.width, target.height);
     if (Status s = keepShadows(commands, inputs, frame); !s) return s;

@@ -2,7 +2,7 @@
 
 // Drawing: surfaces, bark and leaves with sun, shadow, sky and tone mapping, into an image of ours or a host's.
 // renderer_setup.cpp makes what is needed, renderer.cpp draws, renderer_terminals.cpp what has grown,
-// renderer_shadows.cpp shadows.
+// renderer_shadows.cpp shadows, renderer_pass.cpp within a host's pass.
 
 #include <array>
 #include <map>
@@ -19,6 +19,9 @@ namespace espalier {
 
 constexpr uint32_t kFrameSlots = 8;  // frame records, taken in turn
 
+// Of models, in pixels.
+float allowedModelError(const Look& look, bool grows);
+
 class Renderer {
   public:
     static Result<std::unique_ptr<Renderer>> create(Device& device, TerminalData terminals);
@@ -27,9 +30,13 @@ class Renderer {
     // The drawn mesh of surface instance `index`; uploads and waits. groundOnly: something else draws it; only views of
     // charts and of a layer show it.
     Status setSurface(uint32_t index, const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly = false) {
+        unprepare();
         return models_.set(device_, index, data, toWorld, groundOnly);
     }
-    void removeSurface(uint32_t index) { models_.remove(index); }
+    void removeSurface(uint32_t index) {
+        unprepare();
+        models_.remove(index);
+    }
     // Draws a surface that was set elsewhere.
     void placeSurface(uint32_t index, const glm::mat4& toWorld) { models_.place(index, toWorld); }
 
@@ -52,6 +59,13 @@ class Renderer {
     // is new, in every eighth frame, until then with fewer and larger leaves.
     Status draw(Commands& commands, const DrawInputs& inputs, const DrawTarget& target);
 
+    // A frame within a pass of the host's: prepare() records outside of it what comes before, record() the pass' own
+    // commands. What prepare() has made ready lasts until the next draw() or prepare(); record() may come many times.
+    Status prepare(Commands& commands, const DrawInputs& inputs, const PassView& pass);
+    bool prepared() const { return now_.prepared; }
+    void unprepare() { now_.prepared = false; }  // something that it relies on is about to change
+    void record(Commands& inside);
+
     // What the last draw has recorded didn't run: the next relies on none of it.
     void forget();
 
@@ -71,6 +85,8 @@ class Renderer {
     explicit Renderer(Device& device) : device_(device) {}
     Status setUp(TerminalData data);
     Status makePrograms();
+    // What a recording is about, so far as it doesn't depend on where it goes.
+    void begin(const DrawInputs& inputs, PassFormat pass);
     Status drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target);
     // The programs that draw what is lit: one set for each kind of shading, one for the view that counts fragments.
     struct ScenePrograms {
@@ -79,6 +95,13 @@ class Renderer {
             Program light, draw;
         };
         Lit litBark, litLeaves[2];  // of quick ones (lit.glsl): leaves of three vertices, and of four, if there are any
+        RoofPrograms roof;
+        Program piece;
+    };
+    // Those that draw depths only.
+    struct DepthPrograms {
+        Program model, modelCut, bark, leaf, leafCut, piece;
+        RoofPrograms roof;
     };
     Status makeScene(ScenePrograms& programs, Shading shading) const;
     // Those of materials that aren't plain, of which most scenes have none.
@@ -86,6 +109,7 @@ class Renderer {
     Status makeSceneProgram(Program& program, const char* name, const char* vertex, const char* fragment,
                             std::vector<SpecConstant> constants, Blend blend) const;
     Status pickScene(ViewMode shown, bool quick);
+    Status pickDepths(const PassFormat& pass);
     Result<const Program*> resolveProgram(VkFormat format);
     // Uploads the record to now_.frame.
     Status upload(Commands& commands, const FrameRecord& frame);
@@ -102,7 +126,7 @@ class Renderer {
     Status drawWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun);
     Status aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
                           float radius, FrameRecord& frame);
-    Models::Drawn modelsDrawn(const DrawInputs& inputs) const;
+    Models::Drawn modelsDrawn() const;
     void drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post);
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
     // A number for the models and props of this recording.
@@ -113,6 +137,7 @@ class Renderer {
     EmitInputs emitInputs(const DrawInputs& inputs) const;
     uint64_t sceneOf(const DrawInputs& inputs);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
+    Status cullGrowth(Commands& commands, const DrawInputs& inputs, EmitView view);
     void drawGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame, const PostPush& post);
     void drawSky(DrawPass& pass, const FrameRecord& frame, const PostPush& post);
     Status lightTerminals(Commands& commands);
@@ -138,9 +163,9 @@ class Renderer {
     DepthTiles depthTiles_;
     Image shadowMap_, standing_;  // the near half without growth; made when something grows
     Sampler shadowSampler_, textureSampler_, quickSampler_, plainSampler_, pointSampler_;
-    ScenePrograms scenes_[kShadings];  // each made when first asked for
-    Program modelAhead_, modelAheadFading_, modelDepth_, modelCutDepth_, barkDepth_, leafDepth_, leafCutDepth_,
-        distance_, occlusion_, shadowRestore_;
+    std::map<std::pair<PassFormat, Shading>, ScenePrograms> scenes_;  // each made when first asked for
+    std::map<PassFormat, DepthPrograms> depths_;
+    Program modelAhead_, modelAheadFading_, distance_, occlusion_, shadowRestore_;
     Program sky_[2];                                       // without and with hills
     using ResolveKind = std::tuple<VkFormat, bool, bool>;  // format, whether the view counts, whether it is quick
     std::map<ResolveKind, Program> resolves_;
@@ -156,14 +181,21 @@ class Renderer {
     // What the recording that goes on, or the last one, is about: none of it outlives the next one's beginning.
     struct {
         bool grows = false, roofed = false, furnished = false, patterned = false;  // growth, roofs, props, patterns
-        bool hosted = false;                                    // into a host's scene
+        bool hosted = false;                                                       // into a host's scene
+        PassFormat pass;                                                           // that it draws in
         Shading shading = Shading::full;
         ScenePrograms* scene = nullptr;
-        bool plain = false;               // growth and props are drawn as in the shaded view
-        bool lit = false;                 // what has few vertices has been lit ahead
-        bool ahead = false;               // models' depths went ahead, they are shaded after growth
-        bool glass = false;               // what is blended is drawn last
-        float meadowLevel = 0, unit = 1;  // where grass grows over models
+        const DepthPrograms* depths = nullptr;
+        bool plain = false;                        // growth and props are drawn as in the shaded view
+        bool lit = false;                          // what has few vertices has been lit ahead
+        bool ahead = false;                        // models' depths went ahead, they are shaded after growth
+        bool glass = false;                        // what is blended is drawn last
+        float meadowLevel = 0, unit = 1;           // where grass grows over models
+        bool onGround = false, walkData = false;   // the view shows surfaces themselves; there are any
+        bool prepared = false, modelsToo = false;  // for a host's pass; with the surfaces
+        bool mirrored = false;
+        float modelError = 0;  // metres, of what draws depths only
+        VkViewport viewport{};
         const Buffer* frame = nullptr;
         bool shadowsBehind = false;  // what this picture shows
     } now_;

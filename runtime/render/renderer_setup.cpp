@@ -11,18 +11,6 @@ constexpr uint32_t kSmallIndices = 12;  // leaves of no more are for few pixels,
 
 Status Renderer::makePrograms() {
     const bool one = targets_.samples == 1;
-    auto shadow = [&](Program& program, const char* name, const char* vertex, const char* fragment) -> Status {
-        GraphicsDesc desc;
-        desc.name = name;
-        desc.vertex = vertex;
-        desc.fragment = fragment;
-        desc.depth = kDepthFormat;
-        desc.depthBiasConstant = 2;
-        desc.depthBiasSlope = 1.8f;
-        if (&program == &modelDepth_) takeModelPositions(desc);
-        if (&program == &modelCutDepth_) takeModelPositions(desc, true);
-        return assign(program, Program::graphics(device_, desc));
-    };
     GraphicsDesc ahead;
     ahead.name = "model ahead";
     ahead.vertex = "render/model_depth.vert";
@@ -58,28 +46,41 @@ Status Renderer::makePrograms() {
         desc.colors = {format};
         return assign(program, Program::graphics(device_, desc));
     };
-    return allDone(
-        {shadow(modelDepth_, "model shadow", "render/model_depth.vert", ""),
-         shadow(modelCutDepth_, "cut model shadow", "render/model_cut_depth.vert", "render/model_shadow.frag"),
-         shadow(barkDepth_, "bark shadow", "render/bark.vert", ""),
-         shadow(leafDepth_, "leaf shadow", "render/leaf.vert", ""),
-         shadow(leafCutDepth_, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag"),
-         post(distance_, one ? "render/depth_single.frag" : "render/depth.frag", kDistanceFormat),
-         post(occlusion_, "render/occlusion.frag", kOpenFormat)});
+    return allDone({pickDepths(shadowPass()),
+                    post(distance_, one ? "render/depth_single.frag" : "render/depth.frag", kDistanceFormat),
+                    post(occlusion_, "render/occlusion.frag", kOpenFormat)});
+}
+
+Status Renderer::pickDepths(const PassFormat& pass) {
+    DepthPrograms& programs = depths_[pass];
+    now_.depths = &programs;
+    const struct {
+        Program& program;
+        const char* name;
+        const char* vertex;
+        const char* fragment;
+    } rows[] = {{programs.model, "model shadow", "render/model_depth.vert", ""},
+                {programs.modelCut, "cut model shadow", "render/model_cut_depth.vert", "render/model_shadow.frag"},
+                {programs.bark, "bark shadow", "render/bark.vert", ""},
+                {programs.leaf, "leaf shadow", "render/leaf.vert", ""},
+                {programs.leafCut, "cut leaf shadow", "render/leaf.vert", "render/leaf_shadow.frag"}};
+    for (const auto& row : rows) {
+        if (row.program) continue;
+        GraphicsDesc desc = inPass(pass, row.name, row.vertex, row.fragment, {});
+        if (&row.program == &programs.model) takeModelPositions(desc);
+        if (&row.program == &programs.modelCut) takeModelPositions(desc, true);
+        if (Status made = assign(row.program, Program::graphics(device_, desc)); !made) return made;
+    }
+    if (now_.roofed)
+        if (Status made = programs.roof.make(device_, pass, Shading::full); !made) return made;
+    if (!now_.patterned || programs.piece) return Done{};
+    return assign(programs.piece, PieceDraw::program(device_, pass, Shading::full));
 }
 
 Status Renderer::makeSceneProgram(Program& program, const char* name, const char* vertex, const char* fragment,
                                   std::vector<SpecConstant> constants, Blend blend) const {
-    GraphicsDesc desc;
-    desc.name = name;
-    desc.vertex = vertex;
-    desc.fragment = fragment;
-    desc.colors = {kSceneFormat};
-    desc.depth = kDepthFormat;
-    desc.samples = targets_.samples;
-    desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    GraphicsDesc desc = inPass(now_.pass, name, vertex, fragment, std::move(constants));
     desc.blend = blend;
-    desc.options.constants = std::move(constants);
     if (std::string_view(vertex) == "render/model.vert") takeModelVertices(desc);
     if (std::string_view(vertex) == "render/model_mapped.vert") takeModelVertices(desc, true);
     desc.depthWrite = blend != Blend::over && blend != Blend::multiply;
@@ -90,7 +91,7 @@ Status Renderer::makeScene(ScenePrograms& programs, Shading shading) const {
     if (programs.model) return Done{};
     if (isQuick(shading))
         if (Status lit = makeLit(programs); !lit) return lit;
-    const bool one = targets_.samples == 1;
+    const bool one = now_.pass.samples == 1;
     const struct {
         Program& program;
         const char* name;
@@ -127,6 +128,10 @@ Status Renderer::makeRareScene(ScenePrograms& programs, Shading shading) const {
         if (Status s = make(programs.modelMapped, "mapped model", "render/model_mapped.frag", false, blend); !s)
             return s;
     }
+    if (now_.roofed)
+        if (Status s = programs.roof.make(device_, now_.pass, shading); !s) return s;
+    if (now_.patterned && !programs.piece)
+        if (Status s = assign(programs.piece, PieceDraw::program(device_, now_.pass, shading)); !s) return s;
     if (!now_.glass) return Done{};
     if (Status s = make(programs.tint, "glass tint", "render/model_tint.frag", false, Blend::multiply); !s) return s;
     return make(programs.glass, "glass", "render/model_glass.frag", false, Blend::over);
@@ -141,7 +146,7 @@ Status Renderer::pickScene(ViewMode shown, bool quick) {
         now_.shading = cheap ? Shading::quickExplaining : Shading::explaining;
     else
         now_.shading = cheap ? Shading::quick : Shading::full;
-    now_.scene = &scenes_[size_t(now_.shading)];
+    now_.scene = &scenes_[{now_.pass, now_.shading}];
     if (Status made = makeScene(*now_.scene, now_.shading); !made) return made;
     now_.glass = !explained && !now_.hosted && models_.anyGlass();
     return makeRareScene(*now_.scene, now_.shading);

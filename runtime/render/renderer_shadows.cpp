@@ -48,11 +48,11 @@ Status Renderer::makeStanding() {
 
 // error: times what is allowed otherwise.
 void Renderer::drawStanding(DrawPass& pass, const SunView& sun, float error) {
-    models_.drawDepth(pass, modelDepth_, modelCutDepth_, *now_.frame,
+    models_.drawDepth(pass, now_.depths->model, now_.depths->modelCut, *now_.frame,
                       error * kShadowModelTexels * sun.width / kShadowSize);
-    if (now_.roofed) roofs_->draw(pass, *now_.frame, nullptr, nullptr);
+    if (now_.roofed) roofs_->draw(pass, *now_.frame, now_.depths->roof, nullptr);
     if (now_.furnished) props_->drawDepth(pass, *now_.frame);
-    if (now_.patterned) pieces_->drawDepth(pass, *now_.frame);
+    if (now_.patterned) pieces_->drawCasters(pass, *now_.frame, now_.depths->piece);
 }
 
 Status Renderer::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {

@@ -120,13 +120,13 @@ void Renderer::drawTerminals(DrawPass& pass, bool depthOnly) {
             pass.drawIndexedIndirect(now_.scene->leaf, emit_.state(), offset, 2, push,
                                      {color, normal, shadow, *now_.frame, emit_.state(), instances, meshes, drawn});
         else if (bark)
-            pass.drawIndexedIndirect(barkDepth_, emit_.state(), offset, 2, push,
+            pass.drawIndexedIndirect(now_.depths->bark, emit_.state(), offset, 2, push,
                                      {*now_.frame, emit_.state(), instances, meshes, drawn});
         else if (push.alphaCutoff > 0)
-            pass.drawIndexedIndirect(leafCutDepth_, emit_.state(), offset, 2, push,
+            pass.drawIndexedIndirect(now_.depths->leafCut, emit_.state(), offset, 2, push,
                                      {color, *now_.frame, emit_.state(), instances, meshes, drawn});
         else
-            pass.drawIndexedIndirect(leafDepth_, emit_.state(), offset, 2, push,
+            pass.drawIndexedIndirect(now_.depths->leaf, emit_.state(), offset, 2, push,
                                      {*now_.frame, emit_.state(), instances, meshes, drawn});
     }
 }

@@ -19,8 +19,7 @@ constexpr float kErrorScale = 5;
 
 }  // namespace
 
-Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData meshes, VkFormat color, VkFormat depth,
-                                                   uint32_t samples) {
+Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData meshes) {
     auto out = std::make_unique<RoofDraw>();
     out->device_ = &device;
     out->bounds_ = terminalBounds(meshes);
@@ -32,7 +31,12 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
         return made.failure();
     if (Status made = assign(out->terminals_, Terminals::create(device, std::move(meshes))); !made)
         return made.failure();
-    if (Status s = out->makePrograms(device, color, depth, samples); !s) return s.failure();
+    // Exact, so that counting and writing decide alike, whatever a compiler makes of either.
+    Status kernels = makeCompute(device, {{out->cullGrids_, "render/roof_cull_grids.comp", exactly()},
+                                          {out->cullRows_, "render/roof_cull_rows.comp", exactly()},
+                                          {out->scan_, "render/roof_scan.comp", exactly()},
+                                          {out->writeRows_, "render/roof_write_rows.comp", exactly()}});
+    if (!kernels) return kernels.failure();
     const struct {
         Buffer& buffer;
         const char* name;
@@ -50,48 +54,21 @@ Result<std::unique_ptr<RoofDraw>> RoofDraw::create(Device& device, TerminalData 
     return out;
 }
 
-Status RoofDraw::makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples) {
-    // Exact, so that counting and writing decide alike, whatever a compiler makes of either.
-    Status kernels = makeCompute(device, {{cullGrids_, "render/roof_cull_grids.comp", exactly()},
-                                          {cullRows_, "render/roof_cull_rows.comp", exactly()},
-                                          {scan_, "render/roof_scan.comp", exactly()},
-                                          {writeRows_, "render/roof_write_rows.comp", exactly()}});
-    if (!kernels) return kernels;
-    struct Row {
+Status RoofPrograms::make(Device& device, const PassFormat& pass, Shading shading) {
+    const bool shaded = !pass.colors.empty();
+    const struct {
         Program& program;
         const char* name;
         const char* vertex;
         const char* fragment;
-        Shading shading = Shading::full;
-    };
-    std::vector<Row> rows{{tileDepth_, "roof tile shadow", "render/roof_tile.vert", ""},
-                          {cutTileDepth_, "cut roof tile shadow", "render/roof_cut_tile.vert", ""},
-                          {rectangleDepth_, "far roof shadow", "render/roof_rectangle.vert", ""}};
-    for (uint32_t s = 0; s < kShadings; ++s) {
-        if (!isAskedOf(*device_, Shading(s))) continue;
-        rows.push_back({tile_[s], "roof tile", "render/roof_tile.vert", "render/roof_tile.frag", Shading(s)});
-        rows.push_back(
-            {cutTile_[s], "cut roof tile", "render/roof_cut_tile.vert", "render/roof_tile.frag", Shading(s)});
-        rows.push_back(
-            {rectangle_[s], "far roof", "render/roof_rectangle.vert", "render/roof_rectangle.frag", Shading(s)});
-    }
-    for (const Row& r : rows) {
-        GraphicsDesc desc;
-        desc.name = r.name;
-        desc.vertex = r.vertex;
-        desc.fragment = r.fragment;
-        desc.depth = depth;
-        desc.options.constants = constantsOf(r.shading);
-        if (*r.fragment) {
-            desc.colors = {color};
-            desc.blend = blendOf(r.shading);
-            desc.samples = samples;
-            desc.depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-        } else {
-            desc.depthBiasConstant = 2;
-            desc.depthBiasSlope = 1.8f;
-        }
-        if (Status made = assign(r.program, Program::graphics(device, desc)); !made) return made.failure();
+    } rows[] = {{tile, "roof tile", "render/roof_tile.vert", "render/roof_tile.frag"},
+                {cutTile, "cut roof tile", "render/roof_cut_tile.vert", "render/roof_tile.frag"},
+                {rectangle, "far roof", "render/roof_rectangle.vert", "render/roof_rectangle.frag"}};
+    for (const auto& r : rows) {
+        if (r.program) continue;
+        GraphicsDesc desc = inPass(pass, r.name, r.vertex, shaded ? r.fragment : "", constantsOf(shading));
+        desc.blend = blendOf(shading);
+        if (Status made = assign(r.program, Program::graphics(device, desc)); !made) return made;
     }
     return Done{};
 }
@@ -173,20 +150,14 @@ Status RoofDraw::cull(Commands& commands, const RoofView& roofs, const EmitView&
     return Done{};
 }
 
-void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap, const Sampler* shadowSampler,
-                    Shading shading) {
+void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const RoofPrograms& programs, const Binding* shadow) const {
     const TerminalTable& table = terminals_.table();
-    const bool depthOnly = shadowMap == nullptr;
+    const std::vector<Binding> bindings = shadow ? std::vector<Binding>{*shadow, frame} : std::vector<Binding>{frame};
     RoofDrawPush push{};
     push.env.v = reinterpret_cast<RoofDrawEnv*>(env_);
     push.vertices = addressOf<TerminalVertexBuf>(terminals_.vertices());
     push.roughness = 0.9f;
-    const uint64_t rectangles = offsetof(RoofDrawState, rectangleDraw);
-    if (depthOnly)
-        pass.drawIndirect(rectangleDepth_, state_, rectangles, 1, push, {frame});
-    else
-        pass.drawIndirect(rectangle_[size_t(shading)], state_, rectangles, 1, push,
-                          {{*shadowMap, *shadowSampler}, frame});
+    pass.drawIndirect(programs.rectangle, state_, offsetof(RoofDrawState, rectangleDraw), 1, push, bindings);
     pass.setIndices(terminals_.batches());
     for (uint32_t b = 0; b < table.buckets.size(); ++b) {
         const BucketRecord& bucket = table.buckets[b];
@@ -198,11 +169,7 @@ void RoofDraw::draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap,
         for (uint32_t cut : {0u, 1u}) {
             const uint64_t offset =
                 offsetof(RoofDrawState, draws) + 2ull * (kMaxBuckets * cut + b) * sizeof(DrawCommand);
-            if (depthOnly)
-                pass.drawIndexedIndirect(cut ? cutTileDepth_ : tileDepth_, state_, offset, 2, push, {frame});
-            else
-                pass.drawIndexedIndirect(cut ? cutTile_[size_t(shading)] : tile_[size_t(shading)], state_, offset, 2,
-                                         push, {{*shadowMap, *shadowSampler}, frame});
+            pass.drawIndexedIndirect(cut ? programs.cutTile : programs.tile, state_, offset, 2, push, bindings);
         }
     }
 }

@@ -3,6 +3,7 @@
 // Drawing roofs: culled grid by grid and row by row on the GPU, drawn by indirect draws.
 
 #include "runtime/emit/emit.hpp"
+#include "runtime/render/pass_format.hpp"
 #include "runtime/render/shading.hpp"
 #include "runtime/roof_growth/roof_data.hpp"
 #include "shaders/render/roof_draw_records.h"
@@ -15,11 +16,17 @@ struct RoofDrawStats {
     uint32_t overflow = 0;
 };
 
+// What roofs are drawn with in one kind of pass.
+struct RoofPrograms {
+    Program tile, cutTile, rectangle;
+
+    Status make(Device& device, const PassFormat& pass, Shading shading);
+};
+
 class RoofDraw {
   public:
-    // meshes: by the numbers that grids carry; kind 0 is none. targets: how the pictures that it draws into are made.
-    static Result<std::unique_ptr<RoofDraw>> create(Device& device, TerminalData meshes, VkFormat color, VkFormat depth,
-                                                    uint32_t samples);
+    // meshes: by the numbers that grids carry; kind 0 is none.
+    static Result<std::unique_ptr<RoofDraw>> create(Device& device, TerminalData meshes);
 
     // Bounds of the meshes, for RoofInputs.
     const std::vector<RoofMesh>& bounds() const { return bounds_; }
@@ -28,13 +35,11 @@ class RoofDraw {
     Status cull(Commands& commands, const RoofView& roofs, const EmitView& view, bool shadow,
                 std::string_view passName);
     // Draws what the last cull left. frame: a FrameRecord. Depth only without a shadow map.
-    void draw(DrawPass& pass, const Buffer& frame, const Image* shadowMap, const Sampler* shadowSampler,
-              Shading shading = Shading::full);
+    void draw(DrawPass& pass, const Buffer& frame, const RoofPrograms& programs, const Binding* shadow) const;
     // Of the last cull for a picture that has finished.
     RoofDrawStats stats() const;
 
   private:
-    Status makePrograms(Device& device, VkFormat color, VkFormat depth, uint32_t samples);
     Status reserve(const RoofView& roofs);
 
     Device* device_ = nullptr;
@@ -42,8 +47,6 @@ class RoofDraw {
     std::vector<RoofMesh> bounds_;
     Buffer profiles_;  // RoofProfile[kind * kProfileSteps + step]
     Program cullGrids_, cullRows_, scan_, writeRows_;
-    Program tile_[kShadings], cutTile_[kShadings], rectangle_[kShadings];
-    Program tileDepth_, cutTileDepth_, rectangleDepth_;
     Buffer views_, envs_, state_, rows_, tiles_, cuts_, rectangles_, readback_;
     uint64_t env_ = 0;  // of the last cull
     uint32_t slot_ = 0;

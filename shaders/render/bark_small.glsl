@@ -17,5 +17,5 @@ void main() {
     gl_SampleMask[0] = coverage(uvFade.z, hash >> 8u);
 #endif
     vec3 texel = texelColor(texture(colorMap, uvFade.xy).rgb);
-    color = stored(toneMapped(texel * own + other), uvFade.w);
+    color = sceneColor(texel * own + other, uvFade.w);
 }

@@ -2,14 +2,17 @@
 #ifndef ESPALIER_RENDER_ENCODE_GLSL
 #define ESPALIER_RENDER_ENCODE_GLSL
 
+// Linear -> sRGB, by roots, which cost less than its power: 0.0004 off at most. root: x's square root.
+vec3 encodedColor(vec3 x, vec3 root) {
+    return mix(x * 12.92, 0.833753 * root + 0.298108 * sqrt(root) - 0.055317 * x - 0.076904,
+               greaterThan(x, vec3(0.0031308)));
+}
+
 // c: as stored() of tone.glsl; open: ambient visibility; encode: to sRGB; at: the pixel.
 vec4 pictureColor(vec4 c, float open, bool encode, ivec2 at) {
     vec3 root = c.rgb * sqrt(1.0 - c.a * (1.0 - open));
     vec3 x = root * root;
-    // sRGB's curve by roots, which cost less than its power: 0.0004 off at most.
-    if (encode)
-        x = mix(x * 12.92, 0.833753 * root + 0.298108 * sqrt(root) - 0.055317 * x - 0.076904,
-                greaterThan(x, vec3(0.0031308)));
+    if (encode) x = encodedColor(x, root);
     // Half a step of noise, the same on every run, so that the sky shows no bands.
     uint h = (uint(at.x) * 0x9E3779B1u) ^ (uint(at.y) * 0x85EBCA77u);
     h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;

@@ -7,6 +7,6 @@
 #else
 // Sharpened to a pixel's width around the cutoff, so that minified leaves neither swell nor vanish.
 #define CUT_OUT(alpha, cutoff, which)                                                                             \
-    gl_SampleMask[0] = (cutoff) > 0.0 ? coverage(((alpha) - (cutoff)) / max(fwidth(alpha), 1e-3) + 0.5, which) : 15;
+    gl_SampleMask[0] = (cutoff) > 0.0 ? coverage(((alpha) - (cutoff)) / max(fwidth(alpha), 1e-3) + 0.5, which) : 255;
 #endif
 #endif

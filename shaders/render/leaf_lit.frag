@@ -18,5 +18,5 @@ void main() {
     vec4 texel = texture(colorMap, uv);
     texel.rgb = texelColor(texel.rgb);
     CUT_OUT(texel.a, push.alphaCutoff, 0u)
-    color = stored(toneMapped(texel.rgb * ownShare.rgb + dot(texel.rgb, kLeafWeights) * turned + mirrored), ownShare.w);
+    color = sceneColor(texel.rgb * ownShare.rgb + dot(texel.rgb, kLeafWeights) * turned + mirrored, ownShare.w);
 }

@@ -16,5 +16,5 @@ void main() {
     vec4 texel = texture(colorMap, uvShare.xy);
     texel.rgb = texelColor(texel.rgb);
     CUT_OUT(texel.a, push.alphaCutoff, hash >> 16u)
-    color = stored(toneMapped(texel.rgb * own + dot(texel.rgb, kLeafWeights) * turned + mirrored), uvShare.z);
+    color = sceneColor(texel.rgb * own + dot(texel.rgb, kLeafWeights) * turned + mirrored, uvShare.z);
 }

@@ -59,7 +59,7 @@ float gloss(vec3 normal, vec3 view, vec3 light, float roughness) {
 vec4 lit(vec3 direct, vec3 ambient) {
     const vec3 weights = vec3(0.3, 0.6, 0.1);
     float share = dot(ambient, weights) / max(dot(direct + ambient, weights), 1e-5);
-    return stored(toneMapped((direct + ambient) * frame.exposure), clamp(share, 0.0, 1.0));
+    return sceneColor((direct + ambient) * frame.exposure, clamp(share, 0.0, 1.0));
 }
 
 vec4 diagnostic(vec3 color, vec3 normal) {
@@ -68,11 +68,11 @@ vec4 diagnostic(vec3 color, vec3 normal) {
 
 vec3 depthColor(uint depth) { return heatColor(float(depth) * (1.0 / kHottestDepth)); }
 
-// Coverage of `alpha` over the four samples. which: varies the pattern between things that lie over each other.
+// Coverage of `alpha` over four samples, of a host's eight over either half. which: varies the pattern between things that lie over each other.
 int coverage(float alpha, uint which) {
     uint n = uint(clamp(alpha, 0.0, 1.0) * 4.0 + 0.5);
     uint bits = (1u << n) - 1u;
     uint turn = which & 3u;
-    return int(((bits << turn) | (bits >> (4u - turn))) & 15u);
+    return int((((bits << turn) | (bits >> (4u - turn))) & 15u) * 17u);
 }
 #endif

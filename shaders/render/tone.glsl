@@ -1,6 +1,7 @@
 // The tone curve and what the scene's image holds.
 #ifndef ESPALIER_RENDER_TONE_GLSL
 #define ESPALIER_RENDER_TONE_GLSL
+#include "shaders/render/encode.glsl"
 #include "shaders/render/frame.glsl"
 
 // A filmic curve: linear in the shadows, a soft shoulder, and bright colours lose their saturation instead of
@@ -16,7 +17,15 @@ vec3 toneMapped(vec3 c) {
 // What the scene's image holds: the square root of the tone-mapped colour, and in w the share of it that came from
 // the sky, which ambient occlusion dims later. 8 bits and a curve before samples are averaged: edges between bright
 // and dark come out as smooth as others, and writing four samples stays cheap.
-vec4 stored(vec3 mapped, float skyShare) { return vec4(sqrt(mapped), skyShare); }
+layout(constant_id = kConstantOutput) const uint passOutput = kOutputStored;
+vec4 stored(vec3 mapped, float skyShare) {
+    if (passOutput == kOutputStored) return vec4(sqrt(mapped), skyShare);
+    return vec4(passOutput == kOutputEncoded ? encodedColor(mapped, sqrt(mapped)) : mapped, 1.0);
+}
+// light: times exposure.
+vec4 sceneColor(vec3 light, float skyShare) {
+    return passOutput == kOutputLight ? vec4(light, 1.0) : stored(toneMapped(light), skyShare);
+}
 // Counts instead of colours: each fragment adds this to its pixel.
 const float kOverdrawStep = 8.0 / 255.0;
 vec4 oneFragment() { return vec4(vec3(kOverdrawStep), 0.0); }

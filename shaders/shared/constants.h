@@ -15,6 +15,14 @@ CONST_UINT(kConstantExplains, 6u);          // another view than the shaded one 
 CONST_UINT(kConstantRooted, 7u);            // textures hold square roots of colours
 CONST_UINT(kConstantQuick, 8u);             // a picture of what moves, which has to be cheap
 CONST_UINT(kConstantRest, 9u);              // the meadow on the feet of models, and hills before the sky, are drawn, too
+CONST_UINT(kConstantOutput, 10u);           // kOutput…: what a pass holds
+
+// What fragments write. Stored: as tone.glsl says, to be resolved later. The others are for hosts' own passes:
+// tone-mapped, encoded to sRGB or not; light times exposure, which the host maps.
+CONST_UINT(kOutputStored, 0u);
+CONST_UINT(kOutputEncoded, 1u);
+CONST_UINT(kOutputLinear, 2u);
+CONST_UINT(kOutputLight, 3u);
 
 ESPALIER_END
 #endif

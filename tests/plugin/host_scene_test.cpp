@@ -9,51 +9,16 @@
 
 #include "plugin_api/espalier.hpp"
 #include "tests/plugin/drawing_host.hpp"
+#include "tests/plugin/grown_square.hpp"
 
 using namespace espalier;
 
 namespace {
 
 using Picture = DrawingHost::Picture;
+using Grown = GrownSquare;
 constexpr uint32_t kWidth = DrawingHost::kWidth, kHeight = DrawingHost::kHeight;
 constexpr size_t kPixels = size_t(kWidth) * kHeight;
-
-constexpr const char* kIvy =
-    "Ivy -> Branch(5) {Stem(1.2), Stem(1.1), Stem(1), Stem(.9), Stem(.8)}\n"
-    "Stem(l) : arc >= l -> NULL\n"
-    "Stem(l) -> Marching(0.04, rand(-0.35, 0.35), true) {Stem(l), Wood Foliage}\n"
-    "Wood -> S(0.02) Shape(\"bark\", C1)\n"
-    "Foliage -> Repeat(3) {S(0.11) T(rand(), 0.04) R(rand(-1, 1), 0.3) Shape(\"leaf\")}\n";
-
-void silent(void*, EspLogLevel, const char*) {}
-
-// Ivy on the square from (0,0,0) to (1,1,0).
-struct Grown {
-    EspContext* context = nullptr;
-
-    explicit Grown(const DrawingHost& host) : Grown(host.device()) {}
-    explicit Grown(const EspHostDevice& device) {
-        EspContextDef def = esp::defaults<EspContextDef>();
-        def.host = &device;
-        def.log = silent;
-        REQUIRE_MESSAGE(espCreate(ESP_VERSION, &def, &context) == ESP_OK, espLastError(nullptr));
-        EspSurface wall{};
-        REQUIRE(espLoadSurface(context, ESPALIER_SQUARE, nullptr, &wall) == ESP_OK);
-        const EspGrammarDef text = esp::grammarDef("ivy", kIvy);
-        EspSeedDef seed = esp::defaults<EspSeedDef>();
-        REQUIRE_MESSAGE(espCompileGrammar(context, &text, &seed.grammar) == ESP_OK, espLastError(context));
-        for (int i = 0; i < 3; ++i) {
-            seed.position[0] = .2f + .3f * float(i);
-            seed.position[1] = .05f;
-            seed.direction[1] = 1;
-            seed.number = uint32_t(i);
-            EspSeed planted{};
-            REQUIRE(espPlant(context, &seed, &planted) == ESP_OK);
-        }
-        REQUIRE_MESSAGE(espUpdate(context) == ESP_OK, espLastError(context));
-    }
-    ~Grown() { espDestroy(context); }
-};
 
 // The host's device under the name of one that isn't software, on which more samples are drawn and no native code runs.
 PFN_vkGetInstanceProcAddr realFunction;
@@ -236,7 +201,7 @@ void droppedFrame(DrawingHost& host, Grown& grown) {
     host.use(VK_FORMAT_R8G8B8A8_UNORM, {});
     const std::vector<EspCamera> cameras = {cameraAt(.9f, .8f, 1.7f)};
     const Picture wanted = host.drawAtOnce(cameras, grown.context)[0];
-    Grown other(host);
+    Grown other(host.device());
     host.recordInVain(cameras[0], other.context);
     REQUIRE(espDropFrame(other.context) == ESP_OK);
     const Picture after = host.drawAtOnce(cameras, other.context)[0];
@@ -296,7 +261,7 @@ void refusedFrames(DrawingHost& host, Grown& grown) {
 // One device for all: making its programs is what takes time.
 TEST_CASE("growth in a host's scene") {
     DrawingHost host;
-    Grown grown(host);
+    Grown grown(host.device());
     hideEachOther(host, grown);
     depthsAreWhereRaysHit(host, grown);
     otherFormats(host, grown);
@@ -308,7 +273,7 @@ TEST_CASE("growth in a host's scene") {
 
 TEST_CASE("growth in a host's scene, as drawn on devices that aren't software") {
     DrawingHost host;
-    Grown grown(discrete(host)), plain(host);
+    Grown grown(discrete(host)), plain(host.device());
     const EspCamera camera = cameraAt(1.3f, .9f, 1.9f);
     const Picture bare = host.draw(camera, kBoxes, nullptr), drawn = host.draw(camera, kBoxes, grown.context),
                   other = host.draw(camera, kBoxes, plain.context);
@@ -340,7 +305,7 @@ TEST_CASE("growth in a host's scene, as drawn on devices that aren't software") 
 
 TEST_CASE("a picture whose place a host's frame took isn't read back") {
     DrawingHost host;
-    Grown grown(host);
+    Grown grown(host.device());
     const EspCamera camera = cameraAt(1.3f, .9f, 1.9f);
     std::vector<uint8_t> pixels;
     const auto drawn = [&](uint32_t times) {
@@ -378,7 +343,7 @@ TEST_CASE("a context may go while frames that its host has submitted are still d
     DrawingHost host;
     std::vector<Image> drawn;
     {
-        const Grown grown(host);
+        const Grown grown(host.device());
         drawn =
             host.submit({cameraAt(1.3f, .9f, 1.9f), cameraAt(.5f, .5f, 1.2f), cameraAt(.2f, .5f, 1.5f)}, grown.context);
     }
@@ -393,7 +358,7 @@ TEST_CASE("a host that draws no more, but paints and updates, or only paints, ta
         updates = false;
     }
     DrawingHost host;
-    Grown grown(host);
+    Grown grown(host.device());
     host.draw(cameraAt(1.3f, .9f, 1.9f), kBoxes, grown.context);
     EspBrush brush = esp::defaults<EspBrush>();
     brush.layer = "mask";
@@ -418,7 +383,7 @@ TEST_CASE("a host that draws no more, but paints and updates, or only paints, ta
 
 TEST_CASE("what a frame took is known once its host says that it is done, though it draws no other") {
     DrawingHost host;
-    Grown grown(host);
+    Grown grown(host.device());
     REQUIRE(espUpdate(grown.context) == ESP_OK);
     const auto drawMs = [&] {
         EspStats s{};
@@ -434,7 +399,7 @@ TEST_CASE("what a frame took is known once its host says that it is done, though
 
 TEST_CASE("what is only kept for what comes is given back when the host asks, and nothing else") {
     DrawingHost host;
-    Grown grown(host);
+    Grown grown(host.device());
     const EspCamera camera = cameraAt(1.3f, .9f, 1.9f);
     const auto stats = [&] {
         EspStats s{};
