@@ -81,7 +81,8 @@ class ExtrudeLowering {
             return;
         }
         if (isOfPatterns(info.kind))
-            return error(e.place, env, "'" + e.name + "' belongs to patterns; a grammar either marches or makes patterns");
+            return error(e.place, env,
+                         "'" + e.name + "' belongs to patterns; a grammar either marches or makes patterns");
         if (info.kind == Command::drop || info.kind == Command::moss)
             return error(e.place, env, "'" + e.name + "' belongs to roofs; here layers are read as name(texCoord)");
         Node a[2] = {};
@@ -157,7 +158,7 @@ class ExtrudeLowering {
         if (block.kind == Block::marching)
             return error(e.place, env,
                          "an extruded successor draws on its span and can't march; branches begin in a Branch rule");
-        if (block.kind == Block::lock)
+        if (isOfPatterns(block.kind))
             return error(e.place, env,
                          "'" + e.name + "' belongs to patterns; a grammar either marches or makes patterns");
         if (isRoofBlock(block.kind))

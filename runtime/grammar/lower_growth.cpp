@@ -45,6 +45,9 @@ class GrowthLowering {
             if (isRoofBlock(block->kind))
                 return c_.reporter.error(e.place, rule,
                                          "'" + e.name + "' makes roofs; a grammar either marches or makes roofs");
+            if (isOfPatterns(block->kind))
+                return c_.reporter.error(
+                    e.place, rule, "'" + e.name + "' belongs to patterns; a grammar either marches or makes patterns");
             bool marching = block->kind == Block::marching;
             c_.reporter.error(e.place, rule,
                               marching ? "Marching stands alone behind the arrow; give it a rule of its own"

@@ -41,6 +41,10 @@ class PatternLowering {
         std::vector<Step> chain;
         Node colour[3];
     };
+    // The set that an element has tried to place, and what parts waited for before; kNoIndex: none.
+    struct Trial {
+        uint32_t before = kNoIndex, set = kNoIndex;
+    };
     struct Production {
         std::vector<PatternPart> parts;
         uint32_t sets = 0, pieces = 0;
@@ -113,9 +117,20 @@ class PatternLowering {
 
     void walk(const Sequence& sequence, Env& env, State& state, Production& production) {
         std::vector<State> kept;
+        Trial trial;
         for (const Element& e : sequence) {
             if (!c_.expressions.withinBudget(e.place, env.rule) || c_.reporter.full()) return;
             const CommandInfo* command = findCommand(e.name);
+            const BlockInfo* block = findBlock(e.name);
+            const Trial last = std::exchange(trial, {production.prereq, kNoIndex});
+            if (command != nullptr && command->kind == Command::omit) {
+                omit(*command, e, env, last, production);
+                continue;
+            }
+            if (block != nullptr && block->kind == Block::instead) {
+                instead(*block, e, env, last, state, production);
+                continue;
+            }
             if (command != nullptr && command->kind == Command::push) {
                 kept.push_back(state);
             } else if (command != nullptr && command->kind == Command::pop) {
@@ -124,11 +139,12 @@ class PatternLowering {
                 kept.pop_back();
             } else if (command != nullptr) {
                 apply(*command, e, env, state, production);
-            } else if (const BlockInfo* block = findBlock(e.name)) {
+            } else if (block != nullptr) {
                 lock(*block, e, env, state, production);
             } else {
                 call(e, env, state, production);
             }
+            if (production.prereq != trial.before) trial.set = production.prereq;
         }
         if (!kept.empty()) error(sequence.front().place, env, "'[' without ']'");
     }
@@ -137,8 +153,7 @@ class PatternLowering {
         const bool vector = info.kind == Command::size || info.kind == Command::translate;
         if (info.kind == Command::null) return;
         if (e.hasItems || e.args.size() < 1 || e.args.size() > (vector || info.kind == Command::colour ? 3 : 1))
-            return error(e.place, env,
-                         vector ? "write " + e.name + "(x, y, z)" : "write " + std::string(info.usage));
+            return error(e.place, env, vector ? "write " + e.name + "(x, y, z)" : "write " + std::string(info.usage));
         switch (info.kind) {
             case Command::place:
             case Command::placeTested:
@@ -219,9 +234,26 @@ class PatternLowering {
             production.sets -= 1;
             return error(e.place, env, "a Lock places at least one mesh");
         }
-        if (production.pieces - pieces > kMaxPieces)
-            return error(e.place, env, "a Lock of more than 16 meshes");
+        if (production.pieces - pieces > kMaxPieces) return error(e.place, env, "a Lock of more than 16 meshes");
         production.prereq = set;
+    }
+
+    // What stands behind is made whether or not the piece is.
+    void omit(const CommandInfo& info, const Element& e, Env& env, const Trial& last, Production& production) {
+        if (last.set == kNoIndex || e.hasItems || !e.args.empty())
+            return error(e.place, env, "write " + std::string(info.usage));
+        production.prereq = last.before;
+    }
+
+    // What is made in a piece's place where it can't stand.
+    void instead(const BlockInfo& info, const Element& e, Env& env, const Trial& last, const State& state,
+                 Production& production) {
+        if (last.set == kNoIndex || !e.hasItems || !e.args.empty() || e.items.size() != 1)
+            return error(e.place, env, "write " + std::string(info.usage));
+        State own = state;
+        production.prereq = last.set | kIfFallen;
+        walk(e.items[0], env, own, production);
+        production.prereq = last.set;
     }
 
     // The one rule of a symbol that only places a piece, with at most one symbol or mesh in it.
@@ -233,8 +265,8 @@ class PatternLowering {
         for (const Element& e : rule.successor) {
             const CommandInfo* command = findCommand(e.name);
             if (findBlock(e.name) != nullptr) return nullptr;
-            const bool makes = command == nullptr || command->kind == Command::place ||
-                               command->kind == Command::placeTested;
+            const bool makes =
+                command == nullptr || command->kind == Command::place || command->kind == Command::placeTested;
             made += makes ? 1 : 0;
         }
         return made == 1 ? &rule : nullptr;

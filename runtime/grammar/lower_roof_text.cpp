@@ -129,7 +129,7 @@ bool lowerBlock(Compilation& c, const BlockInfo& info, const Element& e, Env& en
                 std::vector<Node>& roots) {
     const bool repeat = info.kind == Block::repeat;
     const size_t least = repeat ? 2 : info.minArgs, most = repeat ? 4 : info.maxArgs;
-    if (info.kind == Block::lock)
+    if (isOfPatterns(info.kind))
         return c.reporter.error(e.place, env.rule,
                                 "'" + e.name + "' belongs to patterns; a grammar either makes roofs or patterns"),
                false;

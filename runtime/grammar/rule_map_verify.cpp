@@ -121,7 +121,7 @@ class Verifier {
         uint32_t foundPieces = 0, foundSets = 0;
         for (uint32_t i = 0; ok() && i < r.successorCount; ++i) {
             const PatternPart p = get<PatternPart>(kSectionParts, r.firstSuccessor + i);
-            need(p.prereq == kNoIndex || p.prereq < foundSets, "what a part of a production waits for");
+            need(p.prereq == kNoIndex || (p.prereq & ~kIfFallen) < foundSets, "what a part of a production waits for");
             if (p.kind == kPartSymbol) continue;
             need(p.set == foundSets || (foundSets > 0 && p.set == foundSets - 1), "a set of a production");
             foundSets = std::max(foundSets, p.set + 1);

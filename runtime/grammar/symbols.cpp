@@ -171,7 +171,7 @@ GrammarKind kindOf(const Module& module) {
             const CommandInfo* command = findCommand(e.name);
             patterns = patterns || (command != nullptr && isOfPatterns(command->kind));
             if (block == nullptr) return;
-            patterns = patterns || block->kind == Block::lock;
+            patterns = patterns || isOfPatterns(block->kind);
             marches = marches || block->kind == Block::marching;
             roofs = roofs || isRoofBlock(block->kind) || (block->kind == Block::repeat && e.args.size() > 1);
         });

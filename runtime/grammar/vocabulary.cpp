@@ -16,6 +16,7 @@ constexpr BlockInfo kBlocks[] = {
     {"Branch", Block::branch, 0, 1, 1, kMany, "Branch(n) {A, B, ...} with n successors"},
     {"Repeat", Block::repeat, 1, 1, 1, 1, "Repeat(n) {successors}"},
     {"Lock", Block::lock, 0, 0, 1, kMaxPieces, "Lock {Piece | Piece | ...}"},
+    {"else", Block::instead, 0, 0, 1, 1, "else {successors} behind IC, Lock or a symbol that places one mesh"},
     {"Extrude", Block::extrude, 1, 1, 1, 2, "Extrude(height) {Face, Top}"},
     {"Join", Block::join, 3, 3, 1, 3, "Join(height, v1, v2) {Clipped, Support, Top}"},
     {"Project", Block::project, 2, 2, 1, 1, "Project(axis1, axis2) {Projected}"},
@@ -37,6 +38,7 @@ constexpr CommandInfo kCommands[] = {
     {"RS", Command::rotateZ, 1, 1, "RS(angle)"},
     {"I", Command::place, 1, 1, "I(\"mesh\")"},
     {"IC", Command::placeTested, 1, 1, "IC(\"mesh\")"},
+    {"omit", Command::omit, 0, 0, "omit behind IC, Lock or a symbol that places one mesh"},
     {"Tint", Command::tint, 1, 1, "Tint(0..1)"},
     {"Colour", Command::colour, 1, 3, "Colour(param) or Colour(r, g, b)"},
     {"Color", Command::colour, 1, 3, "Color(param) or Color(r, g, b)"},
@@ -165,18 +167,17 @@ constexpr struct {
 constexpr struct {
     std::string_view name;
     uint32_t query;
-} kQueryWords[] = {
-    {"value1", kQueryValue1}, {"value2", kQueryValue2},  {"Xangle1", kQueryAngle1}, {"Xangle2", kQueryAngle2},
-    {"sure", kQuerySure},     {"length1", kQueryValue1}, {"length2", kQueryValue2}, {"maxcurv", kQueryValue1},
-    {"mincurv", kQueryValue2}};
+} kQueryWords[] = {{"value1", kQueryValue1},  {"value2", kQueryValue2},  {"Xangle1", kQueryAngle1},
+                   {"Xangle2", kQueryAngle2}, {"sure", kQuerySure},      {"length1", kQueryValue1},
+                   {"length2", kQueryValue2}, {"maxcurv", kQueryValue1}, {"mincurv", kQueryValue2}};
 
 constexpr DirectionInfo kDirections[] = {
     {"up", 0, 1, 0}, {"down", 0, -1, 0}, {"east", 1, 0, 0}, {"west", -1, 0, 0}, {"south", 0, 0, 1}, {"north", 0, 0, -1},
 };
 
-constexpr std::string_view kOtherWords[] = {"pi",  "true",    "false",         "texCoord", "otherwise",
-                                            "and", "or",      "not",           "param",    "context",
-                                            "let", "include", "field", "discontinuous", "C0",       "C1"};
+constexpr std::string_view kOtherWords[] = {"pi",    "true",          "false", "texCoord", "otherwise", "and",
+                                            "or",    "not",           "param", "context",  "let",       "include",
+                                            "field", "discontinuous", "C0",    "C1"};
 
 template <class Row, size_t n>
 const Row* findRow(const Row (&rows)[n], std::string_view name) {

@@ -11,7 +11,11 @@
 // the lowering; lexer and parser stay as they are.
 namespace espalier::grammar {
 
-enum class Block : uint8_t { marching, branch, repeat, lock, extrude, join, project, explode, split };
+enum class Block : uint8_t { marching, branch, repeat, lock, instead, extrude, join, project, explode, split };
+// Kinds that only grammars of patterns have.
+inline bool isOfPatterns(Block kind) {
+    return kind == Block::lock || kind == Block::instead;
+}
 // Kinds that make a grammar one of roofs; Repeat with an axis does so too.
 inline bool isRoofBlock(Block kind) {
     return kind >= Block::extrude;
@@ -39,14 +43,15 @@ enum class Command : uint8_t {
     shape,
     place,
     placeTested,
+    omit,
     push,
     pop,
     null
 };
 // Commands that only grammars of patterns have.
 inline bool isOfPatterns(Command kind) {
-    return kind == Command::rotateX || kind == Command::rotateY || kind == Command::rotateZ ||
-           kind == Command::place || kind == Command::placeTested;
+    return kind == Command::rotateX || kind == Command::rotateY || kind == Command::rotateZ || kind == Command::place ||
+           kind == Command::placeTested || kind == Command::omit;
 }
 struct CommandInfo {
     std::string_view name;

@@ -238,12 +238,25 @@ FN void lookAround(PatternEnv env, uint i) {
     if (fell) settle(env, own, kSetFallen);
 }
 
+// Whether that has come to pass which a part or a set waits for: kSetStands: yes; kSetFallen: it won't; kSetOpen: this
+// isn't known yet. A set that stands has all that it waited for itself; one that has fallen may have been culled.
+FN uint fateOf(PatternEnv env, uint waitsFor) {
+    uint fate = kSetStands;
+    while (waitsFor != kNoIndex && fate == kSetStands) {
+        uint set = waitsFor & ~kIfFallen;
+        bool ifFallen = (waitsFor & kIfFallen) != 0u;
+        uint state = loadShared(env.sets.v[set].state);
+        fate = state == kSetOpen ? kSetOpen : (state == kSetFallen) == ifFallen ? kSetStands : kSetFallen;
+        waitsFor = ifFallen ? env.sets.v[set].prereq : kNoIndex;
+    }
+    return fate;
+}
+
 // One round for set i of the wave: its fate, if those that it hangs on have theirs.
 FN void decideSet(PatternEnv env, uint i) {
     uint at = env.status.v[0].firstSet + i;
     if (loadShared(env.sets.v[at].state) != kSetOpen) return;
-    uint prereq = env.sets.v[at].prereq;
-    uint before = prereq == kNoIndex ? kSetStands : loadShared(env.sets.v[prereq].state);
+    uint before = fateOf(env, env.sets.v[at].prereq);
     if (before == kSetOpen) return;
     bool stands = before == kSetStands;
     bool waits = false;
@@ -277,7 +290,7 @@ FN void goOn(PatternEnv env, uint i) {
         uint at = rule.firstSuccessor + k;
         if (env.grammars.v[shape.grammar].parts.v[at].kind != kPartSymbol) continue;
         uint prereq = env.grammars.v[shape.grammar].parts.v[at].prereq;
-        if (prereq != kNoIndex && env.sets.v[shape.firstSet + prereq].state != kSetStands) continue;
+        if (fateOf(env, setWaitedFor(shape.firstSet, prereq)) != kSetStands) continue;
         uint priority = env.grammars.v[shape.grammar].parts.v[at].priority;
         uint slot = atomicAdd(env.status.v[0].waiting[priority], 1u);
         if (slot >= env.status.v[0].itemRoom) {

@@ -89,6 +89,11 @@ FN bool foundSetRoom(PatternEnv env) {
     return env.status.v[0].sets <= env.status.v[0].setRoom && env.status.v[0].pieces <= env.status.v[0].pieceRoom;
 }
 
+// What a part waits for, as a set among all.
+FN uint setWaitedFor(uint firstSet, uint prereq) {
+    return prereq == kNoIndex ? kNoIndex : ((firstSet + (prereq & ~kIfFallen)) | (prereq & kIfFallen));
+}
+
 // Room for the sets of shape i's rule, which are known by their numbers from now on. False: there is none.
 FN bool makeSets(PatternEnv env, uint i, INOUT(PatternShape) shape) {
     RuleRecord rule = env.grammars.v[shape.grammar].rules.v[shape.rule];
@@ -112,7 +117,7 @@ FN bool makeSets(PatternEnv env, uint i, INOUT(PatternShape) shape) {
         s.key = shape.key;
         s.number = number;
         s.shape = i;
-        s.prereq = prereq == kNoIndex ? kNoIndex : firstSet + prereq;
+        s.prereq = setWaitedFor(firstSet, prereq);
         s.state = kSetOpen;
         s.met = kNoIndex;
         env.sets.v[firstSet + number] = s;

@@ -68,7 +68,8 @@ struct PatternSet {
     u64 key;             // of its production
     uint number;         // in that
     uint shape;          // of its wave
-    uint prereq;         // set before it in the production that has to stand; kNoIndex: none
+    uint prereq;         // set before it in the production that has to stand, or with kIfFallen to have fallen;
+                         // kNoIndex: none
     uint state;
     uint met;            // first of its list of earlier sets that it meets, in PatternEnv::edges; kNoIndex: none
     uint spare;

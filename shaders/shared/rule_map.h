@@ -283,13 +283,15 @@ STATIC_SIZE(PatternOp, 52);
 CONST_UINT(kPartSymbol, 0u);     // args: the symbol's
 CONST_UINT(kPartPlaced, 1u);     // a piece that stands whatever is there; args: its colour, negative: the mesh's own
 CONST_UINT(kPartTested, 2u);     // a piece that stands if it meets nothing that stands
+CONST_UINT(kIfFallen, 0x80000000u);
 struct PatternPart {
     uint kind;
     uint firstOp, opCount;
     uint symbol, nameHash, ordinal, argCount;
     uint mesh;
     uint set;            // of a piece: the number of its set in the production; pieces of a set follow each other
-    uint prereq;         // the part is made only if this set of the production stands; kNoIndex: in any case
+    uint prereq;         // the part is made only if this set of the production stands, or with kIfFallen only if it has
+                         // been tried and doesn't; kNoIndex: in any case
     CodeRange code;      // of args, where the chain has led
     Value args[4];
     uint inputs, layers;

@@ -95,7 +95,7 @@ TEST_CASE("a symbol that only places a piece is looked ahead into, and what stan
 TEST_CASE("a Lock is one set of several pieces") {
     const auto parts =
         partsOf(patternMap("Tile -> Lock { Stone | [T(1) IC(\"star\")] | Cap } Tile\nStone -> IC(\"torus\")\n"
-                         "Cap -> S(2) I(\"ico1\")"),
+                           "Cap -> S(2) I(\"ico1\")"),
                 "Tile");
     REQUIRE(parts.size() == 4);
     for (int i : {0, 1, 2}) {
@@ -103,6 +103,21 @@ TEST_CASE("a Lock is one set of several pieces") {
         CHECK(parts[i].kind == kPartTested);
     }
     CHECK(parts[3].prereq == 0);
+}
+
+TEST_CASE("`else` stands for a piece that can't stand, `omit` lets go on what stands behind it") {
+    const auto parts = partsOf(patternMap("A -> IC(\"star\") else { IC(\"torus\") A } IC(\"ico1\") omit A"), "A");
+    REQUIRE(parts.size() == 5);
+    CHECK(parts[1].prereq == (0 | kIfFallen));
+    CHECK(parts[2].prereq == 1);
+    CHECK(parts[3].prereq == 0);
+    CHECK(parts[4].prereq == 0);
+    for (const char* text : {"A -> I(\"star\") else { A }", "A -> else { IC(\"star\") }", "A -> IC(\"star\") T(1) omit",
+                             "A -> Lock { IC(\"star\") omit }", "A -> IC(\"star\") omit else { A }",
+                             "A -> IC(\"star\") else { A | A }", "A -> IC(\"star\") else A"})
+        CHECK(patternRefusal(text).find("behind IC, Lock or a symbol that places one mesh") != std::string::npos);
+    CHECK(patternRefusal("V -> Marching(1, 0, true) {V else { V }, S(0.1) Shape(\"bark\")}")
+              .find("belongs to patterns") != std::string::npos);
 }
 
 TEST_CASE("fields, their queries and priorities") {
@@ -126,10 +141,10 @@ G : bend.mincurv < 0 -> I("torus"))");
 }
 
 TEST_CASE("mistakes in patterns are told with their place") {
-    CHECK(patternRefusal("A -> IC(\"tours\") A").find("grammar:1:9: A: there is no mesh \"tours\" (did you mean 'torus'?)") !=
-          std::string::npos);
-    CHECK(patternRefusal("A -> Lock { B | IC(\"star\") }\nB -> T(1) IC(\"star\") B").find("without condition or choice") !=
-          std::string::npos);
+    CHECK(patternRefusal("A -> IC(\"tours\") A")
+              .find("grammar:1:9: A: there is no mesh \"tours\" (did you mean 'torus'?)") != std::string::npos);
+    CHECK(patternRefusal("A -> Lock { B | IC(\"star\") }\nB -> T(1) IC(\"star\") B")
+              .find("without condition or choice") != std::string::npos);
     CHECK(patternRefusal("A -> Extrude(1) {I(\"star\")}").size() > 0);
     CHECK(patternRefusal("field f : tensor\nA : f.valeu1 > 0 -> I(\"star\")").find("did you mean 'value1'") !=
           std::string::npos);
@@ -143,8 +158,8 @@ TEST_CASE("mistakes in patterns are told with their place") {
 
 TEST_CASE("the shipped grammars of patterns, and the manual's, compile without warnings") {
     CompileOptions o;
-    for (const char* piece : {"none", "ball", "blossom", "box", "cobble", "cylinder", "ellipse", "hexagon", "ico1", "ico2",
-                              "leaf", "link", "torus", "rod", "scale", "star", "stud", "tile", "triangle"})
+    for (const char* piece : {"none", "ball", "blossom", "box", "cobble", "cylinder", "ellipse", "hexagon", "ico1",
+                              "ico2", "leaf", "link", "torus", "rod", "scale", "star", "stud", "tile", "triangle"})
         o.pieces.push_back({piece, false});
     int shipped = 0;
     for (const auto& entry : std::filesystem::directory_iterator("content/grammars")) {

@@ -154,6 +154,36 @@ L -> Lock { IC("box") | [T(-3, 0, 0) IC("box")] })");
     CHECK(grown.pieces.size() == 3);
 }
 
+TEST_CASE("`else` makes something in place of a piece that has been tried in vain, `omit` goes on without it") {
+    const auto countOf = [](const char* text) {
+        Scene scene(patterntest::square(20), 128);
+        scene.addGrammar(text);
+        scene.plant({0, 0, 0}, {1, 0, 0});
+        const GrownPattern grown = scene.grow();
+        return std::pair(std::ranges::count(grown.pieces, 0u, [](const PatternPiece& p) { return p.mesh & 0xFFFFu; }),
+                         std::ranges::count(grown.pieces, 1u, [](const PatternPiece& p) { return p.mesh & 0xFFFFu; }));
+    };
+    using Counts = std::pair<ptrdiff_t, ptrdiff_t>;  // of boxes, of rings
+    // The second box would stand in the first one.
+    CHECK(countOf("A -> IC(\"box\") B\nB -> IC(\"box\") else { T(3, 0, 0) IC(\"ring\") } T(0, 3, 0) IC(\"ring\")") ==
+          Counts{1, 1});
+    CHECK(countOf("A -> IC(\"box\") B\nB -> T(2, 0, 0) IC(\"box\") else { T(3, 0, 0) IC(\"ring\") } T(0, 3, 0) "
+                  "IC(\"ring\") T(0, 2, 0) IC(\"ring\")") == Counts{2, 2});
+    CHECK(countOf("A -> IC(\"box\") B\nB -> IC(\"box\") omit T(0, 3, 0) IC(\"ring\")") == Counts{1, 1});
+    // One that has been culled isn't replaced, and neither is what stands instead of one that stands.
+    CHECK(countOf("A -> IC(\"box\") IC(\"box\") IC(\"box\") else { T(3, 0, 0) IC(\"ring\") }") == Counts{1, 0});
+    CHECK(countOf("A -> IC(\"box\") else { T(3, 0, 0) IC(\"ring\") else { T(0, 3, 0) IC(\"ring\") } }") ==
+          Counts{1, 0});
+    // Nor do symbols go on that stand behind what was culled; those in braces do where they are made.
+    CHECK(countOf(
+              "A -> IC(\"box\") IC(\"box\") else { B } C\nB -> T(3, 0, 0) IC(\"ring\") IC(\"ring\")\nC -> T(-3, 0, 0) "
+              "IC(\"ring\") IC(\"ring\")") == Counts{1, 1});
+    // A Lock that falls makes room for another.
+    CHECK(
+        countOf("A -> IC(\"box\") Lock { IC(\"ring\") | [T(3, 0, 0) IC(\"ring\")] } else { T(3, 0, 0) IC(\"box\") }") ==
+        Counts{2, 0});
+}
+
 TEST_CASE("a higher priority is derived first") {
     Scene scene(patterntest::square(20), 128);
     scene.addGrammar(R"(

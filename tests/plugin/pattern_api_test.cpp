@@ -19,7 +19,7 @@ constexpr const char* kRings =
     "A -> [S(size) IC(\"torus\")] [T(size, 0, 0) A] [Rz(120) T(size, 0, 0) A] [Rz(-120) T(size, 0, 0) A]\n";
 
 struct Pattern : Life {
-    explicit Pattern(bool shaders = false) {
+    explicit Pattern(bool shaders = false, const char* rules = kRings) {
         EspContextDef def = esp::defaults<EspContextDef>();
         def.log = silent;
         REQUIRE(espCreate(ESP_VERSION, &def, &context) == ESP_OK);
@@ -27,7 +27,7 @@ struct Pattern : Life {
         grow.shadersOnly = shaders;
         REQUIRE(espSetGrow(context, &grow) == ESP_OK);
         REQUIRE(load());
-        const EspGrammarDef text = esp::grammarDef("rings", kRings);
+        const EspGrammarDef text = esp::grammarDef("rings", rules);
         REQUIRE_MESSAGE(espCompileGrammar(context, &text, &grammar) == ESP_OK, espLastError(context));
         REQUIRE(plant(1));
         REQUIRE_MESSAGE(update(), espLastError(context));
@@ -46,13 +46,23 @@ struct Pattern : Life {
     }
 };
 
+// Pieces with what stands in their place, and what goes on without them.
+constexpr const char* kInstead =
+    "angles degrees\n"
+    "Start -> A\n"
+    "A -> S(0.1) IC(\"torus\") else { S(0.04) T(0.05, 0, 0) Rz(20) IC(\"star\") [T(0.09, 0, 0) A] } [T(0.11, 0, 0) "
+    "Rz(41) A]\n"
+    "     [Rz(-120) T(0.11, 0, 0) A] [Rz(120) S(0.05) T(0.08, 0, 0) IC(\"ellipse\") omit T(0.05, 0, 0) A]\n";
+
 }  // namespace
 
 TEST_CASE("a pattern by kernels is the same to the bit as by native code") {
-    Pattern native, shaders(true);
-    CHECK(native.stats().pieces > 20);
-    CHECK(native.stats().hash == shaders.stats().hash);
-    CHECK(native.stats().tried == shaders.stats().tried);
+    for (const char* rules : {kRings, kInstead}) {
+        Pattern native(false, rules), shaders(true, rules);
+        CHECK(native.stats().pieces > 20);
+        CHECK(native.stats().hash == shaders.stats().hash);
+        CHECK(native.stats().tried == shaders.stats().tried);
+    }
 }
 
 TEST_CASE("an element of a field turns the pattern, and what was undone is as before") {
