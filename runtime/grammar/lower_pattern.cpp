@@ -40,6 +40,8 @@ class PatternLowering {
     struct State {
         std::vector<Step> chain;
         Node colour[3];
+        uint32_t begin = kNoIndex;  // steps to where the next segment of a line begins; kNoIndex: there is no line
+        bool merges = false;        // segments end at those that they cross
     };
     // The set that an element has tried to place, and what parts waited for before; kNoIndex: none.
     struct Trial {
@@ -144,12 +146,15 @@ class PatternLowering {
             } else {
                 call(e, env, state, production);
             }
-            if (production.prereq != trial.before) trial.set = production.prereq;
+            const bool segment = command != nullptr && command->kind == Command::lineSegment;
+            if (production.prereq != trial.before && !segment) trial.set = production.prereq;
         }
         if (!kept.empty()) error(sequence.front().place, env, "'[' without ']'");
     }
 
     void apply(const CommandInfo& info, const Element& e, Env& env, State& state, Production& production) {
+        if (info.kind == Command::placeMerged) return merged(info, e, env, state, production);
+        if (info.kind == Command::lineSegment) return segment(info, e, env, state, production);
         const bool vector = info.kind == Command::size || info.kind == Command::translate;
         if (info.kind == Command::null) return;
         if (e.hasItems || e.args.size() < 1 || e.args.size() > (vector || info.kind == Command::colour ? 3 : 1))
@@ -157,7 +162,8 @@ class PatternLowering {
         switch (info.kind) {
             case Command::place:
             case Command::placeTested:
-                return piece(info.kind == Command::placeTested ? kPartTested : kPartPlaced, e, env, state, production);
+                return piece(info.kind == Command::placeTested ? kPartTested : kPartPlaced, e, {}, env, state,
+                             production);
             case Command::colour:
                 c_.expressions.lowerColour(e.args, e.place, env, state.colour);
                 return;
@@ -192,7 +198,8 @@ class PatternLowering {
     }
 
     // Li 2011 names files, as "cylinder.obj": the mesh is meant, whatever its file.
-    void piece(uint32_t kind, const Element& e, Env& env, const State& state, Production& production) {
+    void piece(uint32_t kind, const Element& e, std::vector<Node> measures, Env& env, const State& state,
+               Production& production) {
         const Expr& text = c_.module.exprs[e.args[0]];
         if (text.kind != ExprKind::string)
             return error(text.place, env, "a mesh's name between quotes must stand here: " + e.name + "(\"scale\")");
@@ -209,14 +216,56 @@ class PatternLowering {
         part.kind = opens ? kind : uint32_t(kPartTested);
         part.mesh = uint32_t(mesh - meshes.begin());
         part.set = opens ? production.sets++ : production.openSet;
-        part.argCount = 3;
-        arguments(part, state.colour, e.place, env);
+        const bool line = kind == kPartLine || kind == kPartMergedLine;
+        part.begin = line ? state.begin : kNoIndex;
+        measures.insert(measures.begin(), state.colour, state.colour + 3);
+        part.argCount = uint32_t(measures.size());
+        arguments(part, measures, e.place, env);
         production.pieces += 1;
         production.parts.push_back(part);
-        if (opens && kind == kPartTested) production.prereq = part.set;
+        if (opens && kind != kPartPlaced && kind != kPartLine) production.prereq = part.set;
+    }
+
+    // A piece that goes into a like one: what stands behind it, or in its braces, is made where it doesn't.
+    void merged(const CommandInfo& info, const Element& e, Env& env, const State& state, Production& production) {
+        if (e.args.size() != 3 || e.items.size() > 1) return error(e.place, env, "write " + std::string(info.usage));
+        if (production.openSet != kNoIndex) return error(e.place, env, "what merges has no place in a Lock");
+        Node turn = c_.expressions.lower(e.args[2], env);
+        if (c_.module.degrees) turn = g_.mul(turn, g_.constant(kPi / 180));
+        piece(kPartMerged, e, {c_.expressions.lower(e.args[1], env), turn}, env, state, production);
+        State own = state;
+        for (const Sequence& item : e.items) walk(item, env, own, production);
+    }
+
+    // From where the line has come to so far to where the scope stands.
+    void segment(const CommandInfo& info, const Element& e, Env& env, State& state, Production& production) {
+        if (e.args.size() != 2 || e.hasItems || state.begin == kNoIndex)
+            return error(e.place, env, "write " + std::string(info.usage));
+        if (production.openSet != kNoIndex) return error(e.place, env, "a line has no place in a Lock");
+        const auto moves = [](const Step& s) { return s.kind == kOpTranslate; };
+        if (std::none_of(state.chain.begin() + state.begin, state.chain.end(), moves))
+            return error(e.place, env, "a segment leads along a T in front of it: T(0.1, 0, 0) " + e.name + "(...)");
+        piece(state.merges ? kPartMergedLine : kPartLine, e, {c_.expressions.lower(e.args[1], env)}, env, state,
+              production);
+        state.begin = uint32_t(state.chain.size());
+    }
+
+    // Segments between the braces hang on each other; what stands behind them doesn't hang on them.
+    void line(const BlockInfo& info, const Element& e, Env& env, const State& state, Production& production) {
+        const bool merges = e.args.size() == 1 && c_.module.exprs[e.args[0]].kind == ExprKind::name &&
+                            c_.module.exprs[e.args[0]].text == "merge";
+        if (e.items.size() != 1 || (!e.args.empty() && !merges) || state.begin != kNoIndex)
+            return error(e.place, env, "write " + std::string(info.usage));
+        State own = state;
+        own.begin = uint32_t(own.chain.size());
+        own.merges = merges;
+        const uint32_t before = production.prereq;
+        walk(e.items[0], env, own, production);
+        production.prereq = before;
     }
 
     void lock(const BlockInfo& info, const Element& e, Env& env, State& state, Production& production) {
+        if (info.kind == Block::line) return line(info, e, env, state, production);
         if (info.kind != Block::lock)
             return error(e.place, env,
                          "'" + e.name + "' has no place in a grammar of patterns, which moves by T and places by I");
@@ -265,8 +314,9 @@ class PatternLowering {
         for (const Element& e : rule.successor) {
             const CommandInfo* command = findCommand(e.name);
             if (findBlock(e.name) != nullptr) return nullptr;
-            const bool makes =
-                command == nullptr || command->kind == Command::place || command->kind == Command::placeTested;
+            if (e.hasItems) return nullptr;
+            const bool makes = command == nullptr || command->kind == Command::place ||
+                               command->kind == Command::placeTested || command->kind == Command::placeMerged;
             made += makes ? 1 : 0;
         }
         return made == 1 ? &rule : nullptr;
@@ -311,11 +361,13 @@ class PatternLowering {
         Env env = c_.environment(c_.module.rules[symbol.rules[0]], 0, given);
         env.sitePrefix ^= ++production.inlined * 0x85EBCA6Bu;
         State own = state;
+        own.begin = kNoIndex;
         walk(c_.module.rules[symbol.rules[0]].successor, env, own, production);
     }
 
     PatternPart partOf(const State& state, const Production& production, const Place& place, const Env& env) {
         PatternPart part = {};
+        part.begin = kNoIndex;
         part.prereq = production.prereq;
         part.firstOp = uint32_t(c_.ops.size());
         part.opCount = uint32_t(state.chain.size());
@@ -335,7 +387,7 @@ class PatternLowering {
     }
     void arguments(PatternPart& part, std::span<const Node> nodes, const Place& place, const Env& env) {
         StageReads sites, reads;
-        c_.generate(nodes.first(std::min<size_t>(nodes.size(), kMaxArgs)), sites, reads, part.code, part.args, place,
+        c_.generate(nodes.first(std::min<size_t>(nodes.size(), kPartArgs)), sites, reads, part.code, part.args, place,
                     env.rule);
         part.inputs = reads.inputs;
         part.layers = reads.layers;

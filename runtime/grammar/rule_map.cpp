@@ -29,8 +29,8 @@ constexpr uint32_t kTerminalValues[] = {wordOf(offsetof(TerminalRecord, count)),
                                         kSize + 14,
                                         kSize + 16};
 
-constexpr uint32_t kPartArgs = wordOf(offsetof(PatternPart, args));
-constexpr uint32_t kPartValues[] = {kPartArgs, kPartArgs + 2, kPartArgs + 4, kPartArgs + 6};
+constexpr uint32_t kPartFirst = wordOf(offsetof(PatternPart, args));
+constexpr uint32_t kPartValues[] = {kPartFirst, kPartFirst + 2, kPartFirst + 4, kPartFirst + 6, kPartFirst + 8};
 constexpr uint32_t kOpFirst = wordOf(offsetof(PatternOp, values));
 constexpr uint32_t kOpValues[] = {kOpFirst, kOpFirst + 2, kOpFirst + 4};
 

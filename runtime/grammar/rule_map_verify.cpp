@@ -130,7 +130,7 @@ class Verifier {
         need(foundSets == sets && foundPieces == pieces, "the sets of a production");
     }
     void part(const PatternPart& p) {
-        need(p.kind <= kPartTested && inRange(p.firstOp, p.opCount, counts_[kSectionOps]) && p.opCount <= kMaxOps &&
+        need(p.kind < kPartKinds && inRange(p.firstOp, p.opCount, counts_[kSectionOps]) && p.opCount <= kMaxOps &&
                  p.priority <= kMaxPriority,
              "a part of a production");
         if (p.kind == kPartSymbol) {
@@ -139,7 +139,8 @@ class Verifier {
             const SymbolRecord target = get<SymbolRecord>(kSectionSymbols, p.symbol);
             need(p.argCount == target.argCount && p.nameHash == target.nameHash, "a part's symbol");
         } else {
-            need(p.mesh < 256 && p.argCount <= 3, "a piece");
+            need((p.kind != kPartLine && p.kind != kPartMergedLine) || p.begin < p.opCount, "a segment of a line");
+            need(p.mesh < 256 && p.argCount <= kPartArgs, "a piece");
         }
         code(p.code);
         sites(p.firstSite, p.siteCount);

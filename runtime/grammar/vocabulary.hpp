@@ -11,10 +11,10 @@
 // the lowering; lexer and parser stay as they are.
 namespace espalier::grammar {
 
-enum class Block : uint8_t { marching, branch, repeat, lock, instead, extrude, join, project, explode, split };
+enum class Block : uint8_t { marching, branch, repeat, lock, line, instead, extrude, join, project, explode, split };
 // Kinds that only grammars of patterns have.
 inline bool isOfPatterns(Block kind) {
-    return kind == Block::lock || kind == Block::instead;
+    return kind == Block::lock || kind == Block::line || kind == Block::instead;
 }
 // Kinds that make a grammar one of roofs; Repeat with an axis does so too.
 inline bool isRoofBlock(Block kind) {
@@ -43,6 +43,8 @@ enum class Command : uint8_t {
     shape,
     place,
     placeTested,
+    placeMerged,
+    lineSegment,
     omit,
     push,
     pop,
@@ -51,7 +53,8 @@ enum class Command : uint8_t {
 // Commands that only grammars of patterns have.
 inline bool isOfPatterns(Command kind) {
     return kind == Command::rotateX || kind == Command::rotateY || kind == Command::rotateZ || kind == Command::place ||
-           kind == Command::placeTested || kind == Command::omit;
+           kind == Command::placeTested || kind == Command::placeMerged || kind == Command::lineSegment ||
+           kind == Command::omit;
 }
 struct CommandInfo {
     std::string_view name;

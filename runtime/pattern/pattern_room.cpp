@@ -53,11 +53,11 @@ Status withinLimits(const PatternStatus& status, const PatternLimits& limits) {
     return Done{};
 }
 
-GrownPattern standingOf(std::span<const PatternPiece> pieces, std::span<const PatternSet> sets,
-                        const PatternStatus& status) {
+GrownPattern standingOf(std::span<PatternPiece> pieces, std::span<const PatternSet> sets, const PatternStatus& status) {
+    settleMerged(pieces, sets);
     std::vector<uint32_t> order;
     for (uint32_t i = 0; i < pieces.size(); ++i)
-        if (sets[pieces[i].set].state == kSetStands) order.push_back(i);
+        if (sets[pieces[i].set].state != kSetFallen) order.push_back(i);
     // A set's pieces follow each other as they do in their production.
     std::ranges::stable_sort(order, {}, [&](uint32_t i) {
         const PatternSet& set = sets[pieces[i].set];

@@ -40,8 +40,9 @@ PatternStatus freshPatternStatus(const PatternInputs& inputs, const PatternRoom&
 std::vector<PatternItem> itemsOfPatternSeeds(const PatternInputs& inputs);
 // Empty, or which limit what a status tells goes beyond.
 Status withinLimits(const PatternStatus& status, const PatternLimits& limits);
+// Segments that were cut end there, and pieces that others merged into move to the middle of all of them.
+void settleMerged(std::span<PatternPiece> pieces, std::span<const PatternSet> sets);
 // Of all pieces, those of sets that stand: sorted by mesh, then by key. Fills in stats but for the time.
-GrownPattern standingOf(std::span<const PatternPiece> pieces, std::span<const PatternSet> sets,
-                        const PatternStatus& status);
+GrownPattern standingOf(std::span<PatternPiece> pieces, std::span<const PatternSet> sets, const PatternStatus& status);
 
 }  // namespace espalier

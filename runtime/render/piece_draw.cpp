@@ -54,8 +54,13 @@ Status PieceDraw::place(std::vector<PatternPiece> pieces) {
     spheres_.clear();
     for (const PatternPiece& p : pieces_) {
         const VariantRecord* variant = variantOf(p);
-        const float scale = std::max({glm::length(p.x), glm::length(p.y), glm::length(p.z)});
-        spheres_.push_back({p.position, variant ? variant->extent * scale : 0, scale});
+        const bool line = (p.mesh & kPieceLine) != 0;
+        const float scale = line ? glm::length(p.y) : std::max({glm::length(p.x), glm::length(p.y), glm::length(p.z)});
+        const float radius = variant ? variant->extent * scale : 0;
+        if (line)  // whose curve bulges by less than a tenth
+            spheres_.push_back({p.position + p.x * .5f, .6f * glm::length(p.x) + radius, scale});
+        else
+            spheres_.push_back({p.position, radius, scale});
     }
     chosenFor_ = {};
     ++revision_;

@@ -149,14 +149,27 @@ FN void meetPair(PatternEnv env, uint k) {
     uint set = env.pieces.v[pair.other].set;
     // One that stands is enough.
     if (loadShared(env.sets.v[own].state) != kSetOpen) return;
-    if (!piecesMeet(env, env.pieces.v[pair.other], env.pieces.v[pair.piece])) return;
-    if (set < env.status.v[0].firstSet) {
+    uint layer = layerOf(env.pieces.v[pair.piece].mesh);
+    float at = 0.0f;
+    float there = 0.0f;
+    bool meet = false;
+    if (layer == 0u) {
+        meet = piecesMeet(env, env.pieces.v[pair.other], env.pieces.v[pair.piece]);
+    } else if (layer == 1u) {
+        meet = segmentsCross(env.pieces.v[pair.piece], env.pieces.v[pair.other], at, there);
+    } else {
+        meet = isLike(env.pieces.v[pair.piece], env.pieces.v[pair.other], env.sets.v[own].reach, env.sets.v[own].turn, there);
+    }
+    if (!meet) return;
+    if (layer == 0u && set < env.status.v[0].firstSet) {
         settle(env, own, kSetFallen);
         return;
     }
     uint edge = atomicAdd(env.status.v[0].edges, 1u);
     if (edge < env.status.v[0].edgeRoom) {
         env.edges.v[edge].set = set;
+        env.edges.v[edge].at = at;
+        env.edges.v[edge].there = there;
         env.edges.v[edge].next = atomicExchange(env.sets.v[own].met, edge);
     }
 }
@@ -183,6 +196,7 @@ FN void addPair(PatternEnv env, uint piece, uint other) {
 
 // A ball inside of a piece; its radius is 0 where there is none.
 FN vec4 ballWithin(PatternEnv env, PatternPiece p) {
+    if (layerOf(p.mesh) != 0u) return vec4(0.0f);
     PatternMesh m = env.meshes.v[p.mesh & 0xFFFFu];
     vec3 c = placedPoint(p, m.within);
     float side2 = smaller(smaller(dot3(p.x, p.x), dot3(p.y, p.y)), dot3(p.z, p.z));
@@ -200,10 +214,11 @@ FN void lookAround(PatternEnv env, uint i) {
     uint piece = env.status.v[0].firstPiece + i;
     uint own = env.pieces.v[piece].set;
     bool looks = (env.pieces.v[piece].mesh & kPieceFree) == 0u && loadShared(env.sets.v[own].state) == kSetOpen;
+    uint layer = layerOf(env.pieces.v[piece].mesh);
     vec4 sphere = sphereOf(env, env.pieces.v[piece]);
     vec4 ball = ballWithin(env, env.pieces.v[piece]);
     bool fell = false;
-    for (uint left = looks ? env.status.v[0].classes : 0u; left != 0u; left = left & (left - 1u)) {
+    for (uint left = looks ? env.status.v[0].classes[layer] : 0u; left != 0u; left = left & (left - 1u)) {
         uint c = lowestBit(left);
         float side = cellSide(c);
         float reach = sphere.w + 0.5f * side;
@@ -217,14 +232,14 @@ FN void lookAround(PatternEnv env, uint i) {
             int x = x0 + int(n % nx);
             int y = y0 + int((n / nx) % ny);
             int z = z0 + int(n / (nx * ny));
-            uint other = env.cells.v[cellAt3(env, c, x, y, z)];
+            uint other = env.cells.v[cellAt3(env, layer, c, x, y, z)];
             // Cells share lists where their hashes agree: a piece is looked at from its own cell only.
             while (other != kNoIndex && !fell) {
                 uint set = env.pieces.v[other].set;
                 // Of ten pieces that have been tried, nine may have fallen.
                 if (loadShared(env.sets.v[set].state) != kSetFallen) {
                     vec4 s = sphereOf(env, env.pieces.v[other]);
-                    bool here = classOf(s.w) == c && cellIndex(s.x, side) == x && cellIndex(s.y, side) == y &&
+                    bool here = layerOf(env.pieces.v[other].mesh) == layer && classOf(s.w) == c && cellIndex(s.x, side) == x && cellIndex(s.y, side) == y &&
                                 cellIndex(s.z, side) == z;
                     if (here && countsAgainst(env, own, sphere, set, s)) {
                         fell = set < env.status.v[0].firstSet && ballsMeet(ball, ballWithin(env, env.pieces.v[other]));
@@ -246,7 +261,7 @@ FN uint fateOf(PatternEnv env, uint waitsFor) {
         uint set = waitsFor & ~kIfFallen;
         bool ifFallen = (waitsFor & kIfFallen) != 0u;
         uint state = loadShared(env.sets.v[set].state);
-        fate = state == kSetOpen ? kSetOpen : (state == kSetFallen) == ifFallen ? kSetStands : kSetFallen;
+        fate = state == kSetOpen ? kSetOpen : (state != kSetStands) == ifFallen ? kSetStands : kSetFallen;
         waitsFor = ifFallen ? env.sets.v[set].prereq : kNoIndex;
     }
     return fate;
@@ -258,14 +273,29 @@ FN void decideSet(PatternEnv env, uint i) {
     if (loadShared(env.sets.v[at].state) != kSetOpen) return;
     uint before = fateOf(env, env.sets.v[at].prereq);
     if (before == kSetOpen) return;
-    bool stands = before == kSetStands;
+    // What is cut or merges asks all, for the nearest; else one that stands is enough.
+    bool merges = env.sets.v[at].reach > 0.0f;
+    uint kept = before;
+    uint into = kNoIndex;
+    float there = 0.0f;
     bool waits = false;
-    for (uint e = env.sets.v[at].met; e != kNoIndex && stands; e = env.edges.v[e].next) {
-        uint state = loadShared(env.sets.v[env.edges.v[e].set].state);
-        stands = state != kSetStands;
+    for (uint e = env.sets.v[at].met; e != kNoIndex && (merges ? before == kSetStands : kept != kSetFallen);
+         e = env.edges.v[e].next) {
+        PatternEdge edge = env.edges.v[e];
+        uint state = loadShared(env.sets.v[edge.set].state);
         waits = waits || state == kSetOpen;
+        if (state == kSetOpen || state == kSetFallen || edge.there > uintBitsToFloat(state)) continue;
+        uint left = floatBitsToUint(edge.at);
+        bool first = left < kept;
+        if (left == kept && into != kNoIndex)
+            first = edge.there < there || (edge.there == there && comesBefore(env.sets.v[edge.set], env.sets.v[into]));
+        into = first ? edge.set : into;
+        there = first ? edge.there : there;
+        kept = first ? left : kept;
     }
-    if (!stands || !waits) settle(env, at, stands ? kSetStands : kSetFallen);
+    if (waits && (merges || kept != kSetFallen)) return;
+    env.sets.v[at].into = into;
+    settle(env, at, kept);
 }
 
 FN bool waveDecided(PatternEnv env) { return env.status.v[0].decided == env.status.v[0].sets - env.status.v[0].firstSet; }
@@ -280,7 +310,7 @@ FN void goOn(PatternEnv env, uint i) {
     RuleRecord rule = env.grammars.v[shape.grammar].rules.v[shape.rule];
     uint standing = 0u;
     uint sets = rule.extrude & 0xFFFFu;
-    for (uint s = 0u; s < sets; ++s) standing += env.sets.v[shape.firstSet + s].state == kSetStands ? 1u : 0u;
+    for (uint s = 0u; s < sets; ++s) standing += env.sets.v[shape.firstSet + s].state != kSetFallen ? 1u : 0u;
     atomicAdd(env.status.v[0].shapes, 1u);
     if (standing > 0u) atomicAdd(env.status.v[0].standing, standing);
     if (sets > standing) atomicAdd(env.status.v[0].fallen, sets - standing);
@@ -348,8 +378,9 @@ FN void beginWave(PatternEnv env) {
 // What a piece that stands adds to the hash: its key, its mesh and its place, to the bit.
 FN uvec2 hashOfPiece(PatternEnv env, uint i) {
     PatternPiece p = env.pieces.v[i];
-    if (env.sets.v[p.set].state != kSetStands) return uvec2(0u);
-    uvec2 h = hashWord(hashKey(env.sets.v[p.set].key), env.sets.v[p.set].number);
+    uint state = env.sets.v[p.set].state;
+    if (state == kSetFallen) return uvec2(0u);
+    uvec2 h = hashWord(hashWord(hashKey(env.sets.v[p.set].key), env.sets.v[p.set].number), state);
     h = hashVec3(hashVec3(hashVec3(hashVec3(hashWord(h, p.mesh), p.x), p.y), p.z), p.position);
     return hashWord(h, p.colour);
 }

@@ -1,6 +1,7 @@
 // Deriving symbols: scope, rule, room for the rule's sets; then the places of their pieces.
 #ifndef ESPALIER_SHARED_PATTERN_DERIVE_H
 #define ESPALIER_SHARED_PATTERN_DERIVE_H
+#include "shaders/shared/pattern_merge.h"
 #include "shaders/shared/pattern_scope.h"
 
 ESPALIER_BEGIN
@@ -66,12 +67,43 @@ FN bool applyScopeCommand(PatternEnv env, uint grammar, uint kind, vec3 v, INOUT
     return stands;
 }
 
-// Goes along a part's chain. The production's arguments are in their slots, `key` is the production's.
-FN bool followChain(MACHINE_PARAM PatternEnv env, uint grammar, u64 key, uint part, uint depth, INOUT(Turtle) t) {
+FN vec3 rowsTimes(vec4 x, vec4 y, vec4 z, vec3 v) {
+    return vec3(dot3(vec3(x.x, x.y, x.z), v), dot3(vec3(y.x, y.y, y.z), v), dot3(vec3(z.x, z.y, z.z), v));
+}
+// Where a turtle stands, in the world: unit axes of its scope and the place.
+FN PatternPiece standAt(PatternEnv env, Turtle t) {
+    uint instance = t.w.walk.place >> 16u;
+    vec4 rx = env.surfaces.v[instance].toWorld[0];
+    vec4 ry = env.surfaces.v[instance].toWorld[1];
+    vec4 rz = env.surfaces.v[instance].toWorld[2];
+    float k = rcpExact(surfaceScale(env.surfaces, instance));
+    PatternPiece piece = {};
+    piece.x = rowsTimes(rx, ry, rz, fromFrame(t.w, turned(t.turn, vec3(1.0f, 0.0f, 0.0f)))) * k;
+    piece.y = rowsTimes(rx, ry, rz, fromFrame(t.w, turned(t.turn, vec3(0.0f, 0.0f, 1.0f)))) * k;
+    piece.z = rowsTimes(rx, ry, rz, fromFrame(t.w, turned(t.turn, vec3(0.0f, 1.0f, 0.0f)))) * -k;
+    vec3 up = rowsTimes(rx, ry, rz, t.w.normal) * k;
+    piece.position = rowsTimes(rx, ry, rz, t.w.position) + vec3(rx.w, ry.w, rz.w) + up * t.lift;
+    return piece;
+}
+
+// Notes in piece i where a segment begins.
+FN void markBegin(PatternEnv env, uint i, Turtle t) {
+    PatternPiece begin = standAt(env, t);
+    env.pieces.v[i].position = begin.position;
+    env.pieces.v[i].x = begin.x;
+    env.pieces.v[i].y = begin.y;
+}
+
+// Goes along a part's chain. The production's arguments are in their slots, `key` is the production's. mark: piece that
+// is told where the part says that a segment begins; kNoIndex: none.
+FN bool followChain(MACHINE_PARAM PatternEnv env, uint grammar, u64 key, uint part, uint depth, uint mark,
+                    INOUT(Turtle) t) {
     uint first = env.grammars.v[grammar].parts.v[part].firstOp;
     uint count = env.grammars.v[grammar].parts.v[part].opCount;
+    uint begin = env.grammars.v[grammar].parts.v[part].begin;
     bool stands = true;
     for (uint i = 0u; i < count && stands; ++i) {
+        if (mark != kNoIndex && i == begin) markBegin(env, mark, t);
         PatternOp op = env.grammars.v[grammar].ops.v[first + i];
         runThere(MACHINE env, grammar, key, op.firstSite, op.siteCount, op.inputs, op.layers, op.code, t, depth);
         vec3 v = vec3(valueOf(MACHINE op.values[0]), valueOf(MACHINE op.values[1]), valueOf(MACHINE op.values[2]));
@@ -107,6 +139,7 @@ FN bool makeSets(PatternEnv env, uint i, INOUT(PatternShape) shape) {
     atomicMax(env.status.v[0].pieceGroups[0], patternGroups(firstPiece + pieceCount - env.status.v[0].firstPiece));
     shape.firstSet = firstSet;
     uint piece = firstPiece;
+    uint last = kNoIndex;
     for (uint k = 0u; k < rule.successorCount; ++k) {
         uint at = rule.firstSuccessor + k;
         uint kind = env.grammars.v[shape.grammar].parts.v[at].kind;
@@ -120,7 +153,10 @@ FN bool makeSets(PatternEnv env, uint i, INOUT(PatternShape) shape) {
         s.prereq = setWaitedFor(firstSet, prereq);
         s.state = kSetOpen;
         s.met = kNoIndex;
-        env.sets.v[firstSet + number] = s;
+        s.piece = piece;
+        s.into = kNoIndex;
+        if (number != last) env.sets.v[firstSet + number] = s;
+        last = number;
         // Until it is placed, a piece tells its part in `mesh`.
         env.pieces.v[piece].mesh = at;
         env.pieces.v[piece].set = firstSet + number;
@@ -150,7 +186,7 @@ FN void deriveItem(PatternEnv env, uint i) {
     uint symbol = item.symbol;
     if (item.part != kNoIndex) {
         PatternPart p = env.grammars.v[grammar].parts.v[item.part];
-        stands = stands && followChain(MACHINE env, grammar, item.key, item.part, item.depth, t);
+        stands = stands && followChain(MACHINE env, grammar, item.key, item.part, item.depth, kNoIndex, t);
         runPart(MACHINE env, grammar, item.key, p, t, item.depth);
         for (uint k = 0u; k < 4u; ++k) item.args[k] = valueOf(MACHINE p.args[k]);
         for (uint k = 0u; k < 4u; ++k) SET_SLOT(kSlotArg + k, item.args[k]);
@@ -186,12 +222,15 @@ FN uint packPieceColour(float r, float g, float b) {
     return (x << 20u) | (y << 10u) | z;
 }
 
-FN vec3 rowsTimes(vec4 x, vec4 y, vec4 z, vec3 v) {
-    return vec3(dot3(vec3(x.x, x.y, x.z), v), dot3(vec3(y.x, y.y, y.z), v), dot3(vec3(z.x, z.y, z.z), v));
-}
-
-// The bounding sphere of a piece.
+// The sphere around all that a piece may meet.
 FN vec4 sphereOf(PatternEnv env, PatternPiece p) {
+    if ((p.mesh & kPieceLine) != 0u) {
+        vec3 middle = p.position + p.x * 0.5f;
+        // With half of what segments may lie above each other.
+        float reach = sqrtExact(dot3(p.x, p.x)) * (0.5f + kMergeHeight) + 2.0f * sqrtExact(dot3(p.y, p.y));
+        return vec4(middle.x, middle.y, middle.z, reach * 1.00001f);
+    }
+    if ((p.mesh & kPieceMerges) != 0u) return vec4(p.position.x, p.position.y, p.position.z, env.sets.v[p.set].reach);
     PatternMesh m = env.meshes.v[p.mesh & 0xFFFFu];
     vec3 c = p.position + p.x * m.centre.x + p.y * m.centre.y + p.z * m.centre.z;
     float side2 = larger(larger(dot3(p.x, p.x), dot3(p.y, p.y)), dot3(p.z, p.z));
@@ -208,12 +247,23 @@ FN uint classOf(float radius) {
 }
 // The side of a class's cells: twice its largest radius.
 FN float cellSide(uint c) { return kPieceLeast * 2.0f * uintBitsToFloat((127u + c) << 23u); }
-FN uint cellAt3(PatternEnv env, uint c, int x, int y, int z) {
-    uint h = uint(x) * 0x9E3779B1u ^ uint(y) * 0x85EBCA77u ^ uint(z) * 0xC2B2AE3Du ^ c * 0x27D4EB2Fu;
+FN uint cellAt3(PatternEnv env, uint layer, uint c, int x, int y, int z) {
+    uint h = layer * 0x165667B1u ^ uint(x) * 0x9E3779B1u ^ uint(y) * 0x85EBCA77u ^ uint(z) * 0xC2B2AE3Du ^ c * 0x27D4EB2Fu;
     h = (h ^ (h >> 15u)) * 0x2C1B3C6Du;
     return (h ^ (h >> 13u)) & env.cellMask;
 }
 FN int cellIndex(float x, float side) { return int(floorExact(limited(x * rcpExact(side), -1e9f, 1e9f))); }
+
+// The segment to where a turtle stands from where piece i has been told that it begins.
+FN PatternPiece segmentTo(PatternEnv env, uint i, PatternPiece end, float width) {
+    PatternPiece begin = env.pieces.v[i];
+    PatternPiece piece = {};
+    piece.position = begin.position;
+    piece.x = end.position - begin.position;
+    piece.y = begin.y * width;
+    piece.z = vec3(uintBitsToFloat(packOct(begin.x)), uintBitsToFloat(packOct(end.x)), uintBitsToFloat(packOct(end.y)));
+    return piece;
+}
 
 // Piece i of the wave: from its production's scope to its place.
 FN void placePiece(PatternEnv env, uint i) {
@@ -221,7 +271,6 @@ FN void placePiece(PatternEnv env, uint i) {
     uint part = env.pieces.v[at].mesh;
     uint set = env.pieces.v[at].set;
     PatternShape shape = env.shapes.v[env.sets.v[set].shape];
-    PatternPart p = env.grammars.v[shape.grammar].parts.v[part];
 #ifdef __cplusplus
     Machine machine;
 #endif
@@ -229,39 +278,47 @@ FN void placePiece(PatternEnv env, uint i) {
     for (uint k = 0u; k < 4u; ++k) SET_SLOT(kSlotArg + k, shape.args[k]);
     Turtle t = {};
     bool stands = turtleAt(env.surfaces, shape.scope, t);
-    stands = stands && followChain(MACHINE env, shape.grammar, shape.key, part, shape.depth, t);
+    stands = stands && followChain(MACHINE env, shape.grammar, shape.key, part, shape.depth, at, t);
+    PatternPart p = env.grammars.v[shape.grammar].parts.v[part];
+    bool line = p.kind == kPartLine || p.kind == kPartMergedLine;
     runPart(MACHINE env, shape.grammar, shape.key, p, t, shape.depth);
     float r = valueOf(MACHINE p.args[0]);
     float g = valueOf(MACHINE p.args[1]);
     float b = valueOf(MACHINE p.args[2]);
+    float reach = valueOf(MACHINE p.args[3]);
+    float turn = valueOf(MACHINE p.args[4]);
 
-    uint instance = t.w.walk.place >> 16u;
-    vec4 rx = env.surfaces.v[instance].toWorld[0];
-    vec4 ry = env.surfaces.v[instance].toWorld[1];
-    vec4 rz = env.surfaces.v[instance].toWorld[2];
-    float k = rcpExact(surfaceScale(env.surfaces, instance));
-    vec3 x = rowsTimes(rx, ry, rz, fromFrame(t.w, turned(t.turn, vec3(1.0f, 0.0f, 0.0f)))) * k;
-    vec3 y = rowsTimes(rx, ry, rz, fromFrame(t.w, turned(t.turn, vec3(0.0f, 1.0f, 0.0f)))) * k;
-    vec3 z = rowsTimes(rx, ry, rz, fromFrame(t.w, turned(t.turn, vec3(0.0f, 0.0f, 1.0f)))) * k;
-    vec3 up = rowsTimes(rx, ry, rz, t.w.normal) * k;
-    PatternPiece piece = {};
-    piece.x = x * t.size.x;
-    piece.y = z * t.size.z;
-    piece.z = y * -t.size.y;
-    piece.position = rowsTimes(rx, ry, rz, t.w.position) + vec3(rx.w, ry.w, rz.w) + up * t.lift;
-    piece.mesh = p.mesh | (p.kind == kPartTested ? 0u : kPieceFree);
+    PatternPiece piece = standAt(env, t);
+    if (line) {
+        piece = segmentTo(env, at, piece, reach);
+    } else {
+        piece.x = piece.x * t.size.x;
+        piece.y = piece.y * t.size.z;
+        piece.z = piece.z * t.size.y;
+    }
+    bool free = p.kind == kPartPlaced || p.kind == kPartLine;
+    piece.mesh = p.mesh | (free ? kPieceFree : 0u) | (line ? kPieceLine : 0u) | (p.kind == kPartMerged ? kPieceMerges : 0u);
     piece.set = set;
     piece.colour = packPieceColour(r, g, b);
     piece.next = kNoIndex;
+    if (line || p.kind == kPartMerged) {
+        float s = 0.0f;
+        float c = 0.0f;
+        sinCosExact(limited(turn, 0.0f, kPi), s, c);
+        env.sets.v[set].reach = reach;
+        env.sets.v[set].turn = c;
+        stands = stands && reach > 0.0f;
+    }
     vec4 sphere = sphereOf(env, piece);
     // What is no size at all, or no number, is not to be seen.
-    stands = stands && sphere.w > 0.0f && sphere.w < 1e6f;
+    stands = stands && sphere.w > 0.0f && sphere.w < 1e6f && (!line || dot3(piece.x, piece.x) > 0.0f);
     if (!stands) settle(env, set, kSetFallen);
-    if (stands && p.kind == kPartTested) {
+    if (stands && !free) {
+        uint layer = layerOf(piece.mesh);
         uint c = classOf(sphere.w);
         float side = cellSide(c);
-        uint cell = cellAt3(env, c, cellIndex(sphere.x, side), cellIndex(sphere.y, side), cellIndex(sphere.z, side));
-        atomicOr(env.status.v[0].classes, 1u << c);
+        uint cell = cellAt3(env, layer, c, cellIndex(sphere.x, side), cellIndex(sphere.y, side), cellIndex(sphere.z, side));
+        atomicOr(env.status.v[0].classes[layer], 1u << c);
         piece.next = atomicExchange(env.cells.v[cell], at);
     }
     env.pieces.v[at] = piece;

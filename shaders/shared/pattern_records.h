@@ -60,9 +60,10 @@ struct PatternShape {
 };
 STATIC_SIZE(PatternShape, 104);
 
-CONST_UINT(kSetOpen, 0u);
-CONST_UINT(kSetStands, 1u);
-CONST_UINT(kSetFallen, 2u);
+// How much of a set stands: the bits of a share. A segment that was cut has one in between.
+CONST_UINT(kSetFallen, 0u);
+CONST_UINT(kSetStands, 0x3F800000u);
+CONST_UINT(kSetOpen, 0xFFFFFFFFu);
 // Pieces that stand or fall together. Earlier in the order: lesser (key, number).
 struct PatternSet {
     u64 key;             // of its production
@@ -72,15 +73,21 @@ struct PatternSet {
                          // kNoIndex: none
     uint state;
     uint met;            // first of its list of earlier sets that it meets, in PatternEnv::edges; kNoIndex: none
+    uint piece;          // first of its pieces
+    float reach;         // metres: of a piece that merges, how far; of a segment, how wide it is; else 0
+    float turn;          // of a piece that merges: the cosine of how far it turns
+    uint into;           // the set that it merged into or was cut at; kNoIndex: none
     uint spare;
 };
-STATIC_SIZE(PatternSet, 32);
+STATIC_SIZE(PatternSet, 48);
 
 struct PatternEdge {
-    uint set;            // an earlier set of the same wave
+    uint set;            // an earlier set; of those that merge from any wave, else from the same
     uint next;
+    float at;            // the share of the own set that is left if that one stands
+    float there;         // and that must be left of that one
 };
-STATIC_SIZE(PatternEdge, 8);
+STATIC_SIZE(PatternEdge, 16);
 
 // Two pieces that may meet: `piece` of this wave, `other` before it in the order.
 struct PatternPair {
@@ -123,13 +130,13 @@ struct PatternStatus {
     // VkDispatchIndirectCommand
     uint deriveGroups[3], shapeGroups[3], pieceGroups[3], pairGroups[3], setGroups[3];
     uint mostPairs;                                 // of a wave, where that was too many
-    uint classes;                                   // bit c: there are pieces of class c
+    uint classes[3];                                // of each layer; bit c: there are pieces of class c
     uint rounds;                                    // of decisions, all waves together: as many as were of use
     uint shapes, standing, fallen, ended, deep;     // symbols derived; sets; symbols at a surface's end, beyond maxDepth
     uint mostDepth;
     uint hash[2];
 };
-STATIC_SIZE(PatternStatus, 200);
+STATIC_SIZE(PatternStatus, 208);
 BUFFER(PatternStatusBuf, PatternStatus)
 
 struct PatternEnv {

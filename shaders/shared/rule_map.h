@@ -283,6 +283,11 @@ STATIC_SIZE(PatternOp, 52);
 CONST_UINT(kPartSymbol, 0u);     // args: the symbol's
 CONST_UINT(kPartPlaced, 1u);     // a piece that stands whatever is there; args: its colour, negative: the mesh's own
 CONST_UINT(kPartTested, 2u);     // a piece that stands if it meets nothing that stands
+CONST_UINT(kPartLine, 3u);       // a segment of a line that crosses others; args: its colour, and its width in metres
+CONST_UINT(kPartMergedLine, 4u); // one that ends at the first that it crosses
+CONST_UINT(kPartMerged, 5u);     // a piece that goes into a like one; args: its colour, the distance in metres, the turn
+CONST_UINT(kPartKinds, 6u);
+CONST_UINT(kPartArgs, 5u);
 CONST_UINT(kIfFallen, 0x80000000u);
 struct PatternPart {
     uint kind;
@@ -293,12 +298,13 @@ struct PatternPart {
     uint prereq;         // the part is made only if this set of the production stands, or with kIfFallen only if it has
                          // been tried and doesn't; kNoIndex: in any case
     CodeRange code;      // of args, where the chain has led
-    Value args[4];
+    Value args[5];
     uint inputs, layers;
     uint firstSite, siteCount;
+    uint begin;          // of a line's segment: how many of the ops lead to where it begins; else kNoIndex
     uint priority;       // of a symbol: the higher, the earlier it is derived
 };
-STATIC_SIZE(PatternPart, 100);
+STATIC_SIZE(PatternPart, 112);
 
 // What is asked of a field: bits 7..0 the field, 15..8 a quantity. Query i stands in slot kSlotQuery + i.
 CONST_UINT(kMaxQueries, 20u);

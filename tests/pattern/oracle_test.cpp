@@ -9,28 +9,17 @@
 #include <numbers>
 #include <vector>
 
+#include "tests/pattern/keys.hpp"
 #include "tests/pattern/scene.hpp"
 
 using namespace espalier;
+using patterntest::child;
 using patterntest::Scene;
+using patterntest::stir;
 
 namespace {
 
 using Vec = glm::dvec2;  // along +x and -z: counterclockwise as seen from above
-
-uint64_t stir(uint64_t x) {
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9ull;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBull;
-    return x ^ (x >> 31);
-}
-uint32_t named(const char* name) {
-    uint32_t hash = 2166136261u;
-    for (; *name; ++name) hash = (hash ^ uint8_t(*name)) * 16777619u;
-    return hash;
-}
-uint64_t child(uint64_t key, const char* name, uint32_t ordinal) {
-    return stir(key + stir(uint64_t(named(name)) << 32 | (ordinal + 1)));
-}
 
 constexpr double kLarge = .4, kSmall = .1;
 

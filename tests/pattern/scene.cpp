@@ -144,7 +144,8 @@ Result<GrownPattern> Scene::tryGrow(const PatternLimits& limits, unsigned thread
         maps.push_back(grammars_[g].ref());
         for (uint32_t f = 0; f < kMaxFields; ++f) {
             const std::vector<FieldTexel>& texels = fields_[g][f];
-            fields.push_back({{const_cast<FieldTexel*>(texels.data())}, surface_.levels[0].size,
+            fields.push_back({{const_cast<FieldTexel*>(texels.data())},
+                              surface_.levels[0].size,
                               texels.empty() ? 0 : symmetry_[g][f]});
         }
     }

@@ -54,10 +54,17 @@ constexpr const char* kInstead =
     "Rz(41) A]\n"
     "     [Rz(-120) T(0.11, 0, 0) A] [Rz(120) S(0.05) T(0.08, 0, 0) IC(\"ellipse\") omit T(0.05, 0, 0) A]\n";
 
+// Lines that end at others, knots that go into others.
+constexpr const char* kVeins =
+    "angles degrees\n"
+    "Start -> V [Rz(120) V] [Rz(-120) V]\n"
+    "V -> Rz(rand(-20, 20)) Line(merge) { T(0.05, 0, 0) LineSeg(\"tube\", 0.008) V [Rz(80) V] Knot }\n"
+    "Knot -> S(0.02) IM(\"ball\", 0.03, 180)\n";
+
 }  // namespace
 
 TEST_CASE("a pattern by kernels is the same to the bit as by native code") {
-    for (const char* rules : {kRings, kInstead}) {
+    for (const char* rules : {kRings, kInstead, kVeins}) {
         Pattern native(false, rules), shaders(true, rules);
         CHECK(native.stats().pieces > 20);
         CHECK(native.stats().hash == shaders.stats().hash);

@@ -62,6 +62,18 @@ std::vector<vec2> domeProfile(int rings, float height) {
     return profile;
 }
 
+// A bar from -0.5 to 0.5 with round ends beyond, as lines are made of.
+std::vector<vec2> roundBar(int steps) {
+    constexpr int kEnd = 3;
+    std::vector<vec2> profile{{0, -1}};
+    const auto end = [&](int i) { return .5f * std::numbers::pi_v<float> * float(i) / float(kEnd); };
+    for (int i = kEnd - 1; i > 0; --i) profile.push_back({.5f * std::cos(end(i)), -.5f - .5f * std::sin(end(i))});
+    for (int i = 0; i <= steps; ++i) profile.push_back({.5f, float(i) / float(steps) - .5f});
+    for (int i = 1; i < kEnd; ++i) profile.push_back({.5f * std::cos(end(i)), .5f + .5f * std::sin(end(i))});
+    profile.push_back({0, 1});
+    return profile;
+}
+
 Solid ring(int around, int tube, float large, float small, const Form& form = nullptr) {
     Solid solid;
     solid.sheet(around, tube, [&](float s, float t) {
@@ -201,6 +213,7 @@ PieceMeshes makePieceMeshes() {
     };
     const auto alongY = [](vec3 p) { return vec3(p.x, -p.z, p.y); };
     const auto alongX = [](vec3 p) { return vec3(p.z, p.x, p.y); };
+    const auto flat = [](vec3 p) { return vec3(p.z, p.x, .3f * p.y); };
     const auto oval = [](vec3 p) { return vec3(p.x, p.y * .72f, p.z + .12f + .14f * p.x); };
     const std::vector<vec2> drum{{0, -.5f}, {.5f, -.5f}, {.5f, .5f}, {0, .5f}};
     const std::vector<vec2> bar{{0, 0}, {.5f, 0}, {.5f, 1}, {0, 1}};
@@ -214,6 +227,8 @@ PieceMeshes makePieceMeshes() {
         add("cobble", lod, turnedBody(std::max(n / 2, 6), domeProfile(std::max(m / 3, 2), .55f), cobble).mesh, 0);
         add("cylinder", lod, turnedBody(std::max(n / 2, 5), drum, alongY).mesh, 0);
         add("rod", lod, turnedBody(std::max(n / 2, 5), bar, alongX).mesh, 0);
+        add("tube", lod, turnedBody(std::max(n / 2, 5), roundBar(std::max(m * 2 / 3, 2)), alongX).mesh, 0);
+        add("band", lod, turnedBody(std::max(n / 2, 6), roundBar(std::max(m * 2 / 3, 2)), flat).mesh, 1);
         add("scale", lod, scale(lod == 2 ? 2 : 6 - 2 * lod, lod == 2 ? 3 : 8 - 4 * lod).mesh, 1);
         add("leaf", lod, leaf(2, lod == 2 ? 2 : 6 >> lod).mesh, 0);
         add("blossom", lod, blossom(5, 2, lod == 0 ? 4 : 2), 0);
