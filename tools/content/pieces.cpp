@@ -213,7 +213,9 @@ PieceMeshes makePieceMeshes() {
     };
     const auto alongY = [](vec3 p) { return vec3(p.x, -p.z, p.y); };
     const auto alongX = [](vec3 p) { return vec3(p.z, p.x, p.y); };
-    const auto flat = [](vec3 p) { return vec3(p.z, p.x, .3f * p.y); };
+    // Lines stand out of the ground by more than half.
+    const auto raisedAlongX = [](vec3 p) { return vec3(p.z, p.x, p.y + .2f); };
+    const auto flat = [](vec3 p) { return vec3(p.z, p.x, .3f * p.y + .1f); };
     const auto oval = [](vec3 p) { return vec3(p.x, p.y * .72f, p.z + .12f + .14f * p.x); };
     const std::vector<vec2> drum{{0, -.5f}, {.5f, -.5f}, {.5f, .5f}, {0, .5f}};
     const std::vector<vec2> bar{{0, 0}, {.5f, 0}, {.5f, 1}, {0, 1}};
@@ -227,7 +229,7 @@ PieceMeshes makePieceMeshes() {
         add("cobble", lod, turnedBody(std::max(n / 2, 6), domeProfile(std::max(m / 3, 2), .55f), cobble).mesh, 0);
         add("cylinder", lod, turnedBody(std::max(n / 2, 5), drum, alongY).mesh, 0);
         add("rod", lod, turnedBody(std::max(n / 2, 5), bar, alongX).mesh, 0);
-        add("tube", lod, turnedBody(std::max(n / 2, 5), roundBar(std::max(m * 2 / 3, 2)), alongX).mesh, 0);
+        add("tube", lod, turnedBody(std::max(n / 2, 5), roundBar(std::max(m * 2 / 3, 2)), raisedAlongX).mesh, 0);
         add("band", lod, turnedBody(std::max(n / 2, 6), roundBar(std::max(m * 2 / 3, 2)), flat).mesh, 1);
         add("scale", lod, scale(lod == 2 ? 2 : 6 - 2 * lod, lod == 2 ? 3 : 8 - 4 * lod).mesh, 1);
         add("leaf", lod, leaf(2, lod == 2 ? 2 : 6 >> lod).mesh, 0);
