@@ -86,9 +86,16 @@ FN PatternPiece standAt(PatternEnv env, Turtle t) {
     return piece;
 }
 
+// Where a segment begins or ends: as a production sees it that begins there, so that the next one begins as this one
+// ends. On its way a walk has the normal of where it came from.
+FN PatternPiece joinAt(PatternEnv env, Turtle t) {
+    Turtle begun = {};
+    turtleAt(env.surfaces, scopeOf(t), begun);
+    return standAt(env, begun);
+}
 // Notes in piece i where a segment begins.
 FN void markBegin(PatternEnv env, uint i, Turtle t) {
-    PatternPiece begin = standAt(env, t);
+    PatternPiece begin = joinAt(env, t);
     env.pieces.v[i].position = begin.position;
     env.pieces.v[i].x = begin.x;
     env.pieces.v[i].y = begin.y;
@@ -288,10 +295,11 @@ FN void placePiece(PatternEnv env, uint i) {
     float reach = valueOf(MACHINE p.args[3]);
     float turn = valueOf(MACHINE p.args[4]);
 
-    PatternPiece piece = standAt(env, t);
+    PatternPiece piece = {};
     if (line) {
-        piece = segmentTo(env, at, piece, reach);
+        piece = segmentTo(env, at, joinAt(env, t), reach);
     } else {
+        piece = standAt(env, t);
         piece.x = piece.x * t.size.x;
         piece.y = piece.y * t.size.z;
         piece.z = piece.z * t.size.y;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "shaders/shared/exact.h"
 #include "tests/pattern/keys.hpp"
 #include "tests/pattern/scene.hpp"
 
@@ -185,6 +186,44 @@ TEST_CASE("lines without merging cross") {
     Result<GrownPattern> grown = scene.tryGrow({.maxPieces = 4'000'000, .maxDepth = 8});
     REQUIRE(grown);
     CHECK(crossings(flatLines(*grown), .0025) > 10);
+}
+
+TEST_CASE("a line has no break where its segments meet, and its ends lie on those that cut it") {
+    Scene scene(patterntest::torus(2, .7f), 512);
+    scene.addGrammar(
+        "angles degrees\nA -> V [Rz(120) V] [Rz(-120) V]\nV -> Line(merge) { T(0.15, 0, 0) Rz(rand(-12, 12)) "
+        "LineSeg(\"box\", 0.03) V [Rz(rand(60, 100)) V] }");
+    scene.plant({2.7f, 0, 0}, {0, 0, 1});
+    const GrownPattern grown = scene.grow(2);
+    const auto tangent = [](float bits) { return unpackOct(floatBitsToUint(bits)); };
+    int joints = 0, ends = 0;
+    for (const PatternPiece& p : grown.pieces) {
+        const vec3 end = p.position + p.x;
+        float least = 4;
+        double nearest = 1;
+        for (const PatternPiece& q : grown.pieces) {
+            if (&p == &q || glm::length(q.position - end) > .3f) continue;
+            if (glm::length(q.position - end) < 1e-5f)
+                least = std::min(least, std::acos(std::min(1.f, glm::dot(tangent(p.z.y), tangent(q.z.x)))));
+            // The other's curve, by many chords.
+            for (int i = 0; i <= 64; ++i) {
+                const float t = float(i) / 64, u = 1 - t, third = glm::length(q.x) / 3;
+                const vec3 a = tangent(q.z.x) * third, b = q.x - tangent(q.z.y) * third;
+                const vec3 at = q.position + a * (3 * t * u * u) + b * (3 * t * t * u) + q.x * (t * t * t);
+                nearest = std::min<double>(nearest, glm::length(at - end));
+            }
+        }
+        // What was cut may end where others meet.
+        if (least < 4 && glm::length(p.x) > .148f) {
+            ++joints;
+            CHECK(least < 1 * std::numbers::pi / 180);
+        } else {
+            ++ends;
+            CHECK(nearest < .03 / 2);
+        }
+    }
+    CHECK(joints > 1000);
+    CHECK(ends > 500);
 }
 
 TEST_CASE("on a torus, too, no two merged lines cross") {

@@ -72,7 +72,7 @@ struct PatternBench {
         if (const size_t at = text.find(scale); at != std::string::npos)
             text.replace(at, scale.size(), "param scale = " + std::to_string(mesh.radius) + " ");
         CompileOptions options;
-        for (const char* name : {"scale", "cobble", "link", "tile", "rod", "leaf", "blossom"})
+        for (const char* name : {"scale", "cobble", "link", "tile", "rod", "leaf", "blossom", "tube", "band"})
             options.pieces.push_back({name, false});
         Result<RuleMap> map = compileGrammar(text, options);
         if (!map) return map.failure();
@@ -128,7 +128,7 @@ std::string textOf(const std::string& path) {
 void patternCases(Bench& bench) {
     const std::string group = "pattern/";
     std::vector<const char*> wanted;
-    for (const char* name : {"scales", "mail", "tiles", "cobbles"})
+    for (const char* name : {"scales", "mail", "tiles", "cobbles", "veins", "crackle"})
         if (bench.wants(group + name)) wanted.push_back(name);
     if (wanted.empty()) return;
     PatternBench pattern;
