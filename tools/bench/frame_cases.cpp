@@ -10,6 +10,7 @@
 #include <ctime>
 #include <fstream>
 #include <functional>
+#include <glm/gtc/matrix_transform.hpp>
 #include <sstream>
 #include <utility>
 
@@ -26,6 +27,7 @@ constexpr uint32_t kNodes = 500'000;
 constexpr uint32_t kMaskTexels = 1024;                     // of the mask
 constexpr int kPaintedFrames = 64;                         // in which growth has to close its gaps
 constexpr double kMoving = 2e3 / 15, kPainting = 2e3 / 8;  // CPU ms of a frame on two cores: 15 and 8 frames/s
+constexpr double kRecording = 0.1;                         // ms of the thread for an unchanged frame in a host's pass
 constexpr int kRounds = 5;                                 // of frames by the clock, which others disturb
 constexpr int kSettling = 24;                              // frames ahead of each, in which the detail finds its level
 constexpr DrawTarget kFull{.width = 1280, .height = 720}, kHalf{.width = 640, .height = 360};
@@ -121,7 +123,59 @@ struct Film {
         return {median(overlapped), median(waited), uint32_t(median(leaves))};
     }
 
+    // Milliseconds of the recording thread's CPU time for an unchanged frame within a pass, median of 100; 0: it can't
+    // be drawn.
+    double recording(VkExtent2D size) {
+        Image colour, depth;
+        ImageDesc desc{.name = "pass", .width = size.width, .height = size.height, .samples = 4};
+        desc.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+        if (!assign(colour, Image::create(device, desc))) return 0;
+        desc.format = kDepthFormat;
+        desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+        if (!assign(depth, Image::create(device, desc))) return 0;
+        PassView pass;
+        pass.format = {.colors = {colour.format()},
+                       .depth = kDepthFormat,
+                       .samples = 4,
+                       .reversed = false,
+                       .output = kOutputEncoded};
+        pass.viewport = {0, 0, float(size.width), float(size.height), 0, 1};
+        const Camera& camera = inputs.camera;
+        pass.view = glm::lookAtRH(camera.eye, camera.target, camera.up);
+        pass.projection = glm::infinitePerspectiveRH_ZO(camera.fovY, float(size.width) / float(size.height), 0.1f);
+        pass.projection[1][1] *= -1;
+        std::vector<double> times;
+        for (int frame = -3; frame < 100; ++frame) {
+            Result<Commands> commands = Commands::begin(device, "frame");
+            if (!commands) return 0;
+            commands->transition(colour, ImageState::colorTarget, true);
+            commands->transition(depth, ImageState::depthTarget, true);
+            double cost = threadMilliseconds();
+            if (!renderer.prepare(*commands, inputs, pass)) return 0;
+            cost = threadMilliseconds() - cost;
+            {
+                DrawTargets targets;
+                targets.extent = size;
+                targets.colors.push_back({.view = colour.view(), .clear = std::array<float, 4>{0, 0, 0, 1}});
+                targets.depth = DepthTarget{.view = depth.view(), .clear = 1.0f};
+                DrawPass drawn(*commands, "pass", targets);
+                const double begun = threadMilliseconds();
+                renderer.record(*commands);
+                cost += threadMilliseconds() - begun;
+            }
+            // One is drawn, the others are dropped: only recording is measured.
+            if (frame == -3 && !commands->finish()) return 0;
+            if (frame >= 0) times.push_back(cost);
+        }
+        return median(times);
+    }
+
   private:
+    static double threadMilliseconds() {
+        timespec now{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+        return double(now.tv_sec) * 1e3 + double(now.tv_nsec) * 1e-6;
+    }
     void hurry() {
         inputs.look.lodPixels = scene::MovingDetail::kLod;
         inputs.look.leafPixels = Look{}.leafPixels * detail.leaf();
@@ -200,7 +254,9 @@ class Painter {
 
 void frameCases(Bench& bench) {
     const char* name = "frame/sample";
-    if (!bench.wants(name) && !bench.wants("frame/moving") && !bench.wants("frame/painting")) return;
+    if (!bench.wants(name) && !bench.wants("frame/moving") && !bench.wants("frame/painting") &&
+        !bench.wants("frame/record"))
+        return;
     const std::string& content = bench.options().contentFolder;
     Result<std::unique_ptr<Device>> device = Device::create();
     if (!device) return bench.skip(name, device.failure().text());
@@ -228,6 +284,7 @@ void frameCases(Bench& bench) {
     film.inputs.surfaces = scene->surfaces();
     const double still = film.cost(kFull, 0).median;
     const RenderStats stats = (*renderer)->stats();
+    const double recording = film.recording({kFull.width, kFull.height});
     film.coarse = true;
     const double moving = film.cost(kFull, 2).median;
     std::vector<std::pair<std::string, double>> stages;
@@ -244,6 +301,8 @@ void frameCases(Bench& bench) {
                 film.inputs.growth.nodeCount, film.inputs.growth.leafCount, stats.emit.spans, stats.emit.leaves,
                 double(stats.emit.drawnTriangles) * 1e-6);
     bench.add({name, "CPU time of a frame, nothing moves", "ms", still, "the same without ivy", bare});
+    bench.add({"frame/record", "an unchanged frame recorded into a host's pass, CPU time of the thread, median of 100",
+               "ms", recording, "bound", kRecording});
     const std::string seen = std::to_string(drawn) + " leaves drawn";
     bench.add({"frame/moving/bare", "CPU time of a frame without ivy, half size", "ms", bareHalf,
                "15 frames/s on two cores", kMoving});
