@@ -51,7 +51,9 @@ GrownPattern manyOf(const std::string& rules) {
     Scene scene(patterntest::square(2), 64);
     scene.addGrammar(kMany + rules);
     scene.plant({0, 0, 0}, {1, 0, 0});
-    return scene.grow(2);
+    Result<GrownPattern> grown = scene.tryGrow({.maxShapes = 1u << 20}, 2);
+    if (!grown) FAIL(grown.failure().text());
+    return std::move(*grown);
 }
 
 }  // namespace
