@@ -281,3 +281,67 @@ TEST_CASE("a piece goes into a like one within its distance and turn, which move
     REQUIRE(nearest.pieces.size() == 2);
     CHECK(std::abs(nearest.pieces[0].position.x - nearest.pieces[1].position.x) == doctest::Approx(.85).epsilon(1e-3));
 }
+
+TEST_CASE("pieces that merge stand where those before them in a sequential derivation leave room") {
+    constexpr double kHalf = 5, kReach = .8;
+    Scene scene(patterntest::square(2 * kHalf), 256);
+    scene.addGrammar(
+        "angles degrees\nA -> S(0.2) IM(\"box\", 0.8, 180) [T(1, 0, 0) Rz(23) A] [Rz(107) T(1.1, 0, 0) A]");
+    const vec3 begin = scene.placeNear({.2f, 0, -.1f});
+    scene.plant(begin, {1, 0, 0}, 0, 9);
+    const GrownPattern grown = scene.grow(2);
+
+    struct Shape {
+        uint64_t key;
+        Vec at;
+        double turn;
+    };
+    struct Group {
+        Vec anchor, sum;
+        int count;
+    };
+    std::vector<Shape> wave{{stir(9), {begin.x, -begin.z}, 0}};
+    std::vector<Group> groups;
+    bool doubtful = false;
+    int merged = 0;
+    while (!wave.empty()) {
+        std::ranges::sort(wave, {}, &Shape::key);
+        std::vector<Shape> next;
+        // Who goes into whom is found among all of the wave that stand before it.
+        for (const Shape& s : wave) {
+            Group* nearest = nullptr;
+            for (Group& g : groups) {
+                const double distance = glm::length(g.anchor - s.at);
+                doubtful = doubtful || std::abs(distance - kReach) < 1e-3;
+                if (distance > kReach) continue;
+                if (!nearest || distance < glm::length(nearest->anchor - s.at)) nearest = &g;
+            }
+            if (nearest) {
+                nearest->sum += s.at;
+                nearest->count += 1;
+                ++merged;
+                continue;
+            }
+            groups.push_back({s.at, s.at, 1});
+            const auto goOn = [&](uint32_t ordinal, double turn, double by, double turnAfter) {
+                const Vec at = s.at + by * Vec(std::cos(turn), std::sin(turn));
+                const double edge = kHalf - std::max(std::abs(at.x), std::abs(at.y));
+                doubtful = doubtful || std::abs(edge) < 1e-3;
+                if (edge > 0) next.push_back({child(s.key, "A", ordinal), at, turnAfter});
+            };
+            constexpr double kDegree = std::numbers::pi / 180;
+            goOn(0, s.turn, 1, s.turn + 23 * kDegree);
+            goOn(1, s.turn + 107 * kDegree, 1.1, s.turn + 107 * kDegree);
+        }
+        wave = std::move(next);
+    }
+    REQUIRE_FALSE(doubtful);
+    CHECK(groups.size() > 30);
+    CHECK(merged > 30);
+    REQUIRE(grown.pieces.size() == groups.size());
+    for (const PatternPiece& p : grown.pieces) {
+        const Vec at(p.position.x, -p.position.z);
+        CHECK(std::ranges::count_if(
+                  groups, [&](const Group& g) { return glm::length(g.sum / double(g.count) - at) < 2e-3; }) == 1);
+    }
+}
