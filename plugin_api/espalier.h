@@ -372,7 +372,9 @@ ESP_API EspResult espDefaultCamera(EspCamera* out);
 typedef enum EspView {
     ESP_VIEW_SHADED = 0, ESP_VIEW_CHARTS = 1, ESP_VIEW_NORMALS = 2, ESP_VIEW_LOD = 3, ESP_VIEW_LAYER = 4,
     ESP_VIEW_DEPTH = 5,          /* growth by the branches that lead to it from its seed */
-    ESP_VIEW_OVERDRAW = 6        /* fragments that were shaded for each pixel */
+    ESP_VIEW_OVERDRAW = 6,       /* fragments that were shaded for each pixel */
+    ESP_VIEW_FIELD = 7           /* a field of directions (espalier_patterns.h) by streaks along it, with a mark at each
+                                    singularity: warm of a positive index, blue of a negative one; no pieces */
 } EspView;
 
 typedef struct EspLook {         /* all numbers finite */
@@ -391,7 +393,8 @@ typedef struct EspLook {         /* all numbers finite */
                                     instead of at each vertex; models' levels of detail take over at once;
                                     default 0 */
     EspView view;
-    const char* viewLayer;       /* for ESP_VIEW_LAYER, else not read: a layer, or one of colours */
+    const char* viewLayer;       /* for ESP_VIEW_LAYER a layer, or one of colours; for ESP_VIEW_FIELD a field that a
+                                    grammar declares; else not read */
     float viewOpacity;           /* 0 to 1: of that layer over models and roofs; default 1 */
     const EspBrush* viewBrush;   /* for ESP_VIEW_LAYER, else not read: where its slopes and heights let no paint pass the
                                     surfaces are hatched, and the more faintly the more passes; NULL: nowhere */

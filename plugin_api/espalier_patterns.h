@@ -34,6 +34,11 @@ typedef struct EspFieldDef {
     const EspFieldElement* elements;
     float drift[3];              /* world: the direction that the field leans to where no element says otherwise */
     float lean;                  /* how much it does; 0: not at all */
+    int exact;                   /* 1: the field has the elements' singularities and no others, but for those that
+                                    topology asks for: on a closed piece of the surface all indices add up to its Euler
+                                    characteristic. What elements leave over lies far from them. The drift then turns
+                                    each piece's field as a whole only */
+    uint32_t reserved;           /* 0 */
 } EspFieldDef;
 ESP_API EspResult espDefaultFieldDef(EspFieldDef* out);   /* no elements; it leans down by 1 */
 
@@ -42,6 +47,18 @@ ESP_API EspResult espDefaultFieldDef(EspFieldDef* out);   /* no elements; it lea
  * the next espUpdate. ESP_INVALID_ARGUMENT: there is no such surface, the name is empty, a number isn't finite, or there are
  * too many elements. Elements of half a turn do nothing where a grammar declares a field of vectors. */
 ESP_API EspResult espSetField(EspContext* context, EspSurface surface, const char* name, const EspFieldDef* def);
+
+/* A place about which a field turns. */
+typedef struct EspSingularity {
+    float position[3];           /* world */
+    float index;                 /* whole turns of the direction on the way once around; N-ths, of a field of N directions */
+} EspSingularity;
+/* Those of a field of this name, which a grammar declares, on one surface, as the last espSetField asked for. *count: room in
+ * out, set to how many there are; what there is no room for is left out. out NULL: only asks. Over a closed surface the
+ * indices add up to its Euler characteristic. ESP_INVALID_ARGUMENT: there is no such surface, or no grammar declares such a
+ * field. */
+ESP_API EspResult espFieldSingularities(EspContext* context, EspSurface surface, const char* name, EspSingularity* out,
+                                        uint32_t* count);
 
 /* ---- Grammars ----------------------------------------------------------------------------------------------- */
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <vector>
 #include <utility>
+#include <vector>
 
 #include "sample_game/field_tool.hpp"
 #include "sample_game/panels.hpp"
@@ -77,6 +77,8 @@ const char* viewTitle(EspView view) {
             return "Branches from the seed";
         case ESP_VIEW_OVERDRAW:
             return "Overdraw";
+        case ESP_VIEW_FIELD:
+            return "Field";
         case ESP_VIEW_LAYER:
             break;
     }
@@ -113,12 +115,16 @@ void lightPanel(Workspace& work) {
         for (const std::string& name : scene.layers)
             if (ImGui::Selectable(("Layer: " + name).c_str(), layer && scene.viewLayer == name))
                 work.perform(SetView{"layer", name});
+        for (const std::string& name : designedFields(work))
+            if (ImGui::Selectable(("Field: " + name).c_str(),
+                                  scene.look.view == ESP_VIEW_FIELD && scene.viewLayer == name))
+                work.perform(SetView{"field", name});
         ImGui::EndCombo();
     }
     toolTip("What is shown of the scene  (1 to 6)");
-    if (layer) {
+    if (layer || scene.look.view == ESP_VIEW_FIELD) {
         if (labelledSlider("Opacity", &work.layout.layerOpacity, .05f, 1, "%.2f")) work.redraw = true;
-        toolTip("Of the painted layer over the model");
+        toolTip("Of what is shown over the model");
     }
     bool paper = scene.grow.walk == ESP_WALK_PAPER;
     if (checkBox("The paper's walk, to compare", &paper))

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sample_game/field_tool.hpp"
 #include "tools/scene/layers.hpp"
 
 namespace sample {
@@ -143,7 +144,10 @@ void Workspace::followLayers() {
     const auto& layers = scene().layers;
     const auto there = [&](const std::string& name) { return std::ranges::find(layers, name) != layers.end(); };
     if (!there(brush.layer)) brush.layer = layers.empty() ? "" : layers.front();
-    if (scene().look.view != ESP_VIEW_LAYER || there(scene().viewLayer)) return;
+    const EspView shown = scene().look.view;
+    const bool stays = shown == ESP_VIEW_FIELD ? std::ranges::count(designedFields(*this), scene().viewLayer) > 0
+                                               : shown != ESP_VIEW_LAYER || there(scene().viewLayer);
+    if (stays) return;
     const bool seen = tool == Tool::paint && !brush.layer.empty() && !townLayer(brush.layer);
     const espalier::document::SetView view{seen ? "layer" : "shaded", seen ? brush.layer : ""};
     redraw = true;

@@ -1,6 +1,7 @@
 // What all fields share: elements, singularities.
 #include "runtime/field/field.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -28,23 +29,54 @@ bool fits(ElementKind kind, uint32_t symmetry) {
     return turns == std::round(turns);
 }
 
+double turnAlong(const FieldMesh& mesh, const Field& field, uint32_t h) {
+    // Half a turn is the same for both half-edges of an edge, or it would count twice.
+    if (!mesh.ownsEdge(h)) return -turnAlong(mesh, field, mesh.twin[h]);
+    const std::complex<double> moved = field.power[mesh.from(h)] * std::polar(1.0, field.symmetry * mesh.transport(h));
+    return std::arg(field.power[mesh.to(h)] * std::conj(moved));
+}
+
+namespace {
+
+int wholeTurns(double turned) {
+    return int(std::lround(turned / (2 * std::numbers::pi)));
+}
+
+// Over the ring of edges around a vertex.
+int turnsAbout(const FieldMesh& mesh, const Field& field, uint32_t vertex) {
+    double turned = 0;
+    uint32_t h = mesh.first[vertex];
+    do {
+        turned += turnAlong(mesh, field, FieldMesh::next(h)) + field.symmetry * mesh.curvature(h / 3);
+        h = mesh.twin[FieldMesh::previous(h)];
+    } while (h != mesh.first[vertex]);
+    return wholeTurns(turned);
+}
+
+}  // namespace
+
 std::vector<Singularity> singularitiesOf(const FieldMesh& mesh, const Field& field) {
     std::vector<Singularity> all;
+    const auto add = [&](const Singularity& s) {
+        if (s.turns != 0) all.push_back(s);
+    };
+    const auto open = [&](uint32_t v) { return field.power[v] == 0.0; };
+    for (uint32_t v = 0; v < mesh.positions.size(); ++v)
+        if (open(v) && !mesh.border[v]) add({mesh.first[v] / 3, v, turnsAbout(mesh, field, v)});
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        double field360 = 0, carried = 0;
-        for (uint32_t k = 0; k < 3; ++k) {
-            const uint32_t h = 3 * t + k, a = mesh.from(h), b = mesh.to(h);
-            const double transport = mesh.transport(h);
-            const std::complex<double> moved = field.power[a] * std::polar(1.0, field.symmetry * transport);
-            field360 += std::arg(field.power[b] * std::conj(moved));
-            carried += transport;
-        }
-        // What a direction turns by that is carried once around: the triangle's share of the surface's curvature.
-        const double curvature = carried - 2 * std::numbers::pi * std::round(carried / (2 * std::numbers::pi));
-        const double turns = (field360 + field.symmetry * curvature) / (2 * std::numbers::pi);
-        if (const int whole = int(std::lround(turns)); whole != 0) all.push_back({t, whole});
+        if (std::ranges::any_of(mesh.triangles[t], open)) continue;
+        double turned = field.symmetry * mesh.curvature(t);
+        for (uint32_t k = 0; k < 3; ++k) turned += turnAlong(mesh, field, 3 * t + k);
+        add({t, kNoIndex, wholeTurns(turned)});
     }
     return all;
+}
+
+glm::dvec3 placeOf(const FieldMesh& mesh, const Singularity& singularity) {
+    if (singularity.vertex != kNoIndex) return mesh.positions[singularity.vertex];
+    glm::dvec3 sum(0);
+    for (const uint32_t v : mesh.triangles[singularity.triangle]) sum += mesh.positions[v];
+    return sum / 3.0;
 }
 
 }  // namespace espalier

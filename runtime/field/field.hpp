@@ -15,22 +15,26 @@ namespace espalier {
 // eigenvectors of a symmetric tensor are, 4 a cross field.
 //
 // power[v] is the direction's N-th power, exp(i N angle), in the measure of angles of the mesh's vertex. Its length is
-// 1 for designed fields. deviator and mean: the eigenvalues of a tensor are mean + deviator, along the direction, and
-// mean - deviator; of a vector field the length is the deviator.
+// 1, or 0 at an inner vertex about which the field turns, whose neighbours all have directions. deviator and mean: the
+// eigenvalues of a tensor are mean + deviator, along the direction, and mean - deviator; of a vector field the length
+// is the deviator.
 struct Field {
     uint32_t symmetry = 2;
     std::vector<std::complex<double>> power;
     std::vector<float> mean, deviator;
+    // Of an exact field: the turns that topology asked for beyond those of the elements, in N-ths of a whole turn, all
+    // closed pieces together; those missing and those too much count alike.
+    int unasked = 0;
 };
 
 // What a designer puts on a surface (Li 2011 §4.2, Fig. 6).
 enum class ElementKind : uint32_t { regular, wedge, trisector, node, centre, saddle };
 struct FieldElement {
     ElementKind kind = ElementKind::regular;
-    glm::dvec3 position{0};       // object space, metres; the nearest vertex is meant
+    glm::dvec3 position{0};         // object space, metres; the nearest vertex is meant
     glm::dvec3 direction{1, 0, 0};  // a regular element's, laid into the surface; a singular one is turned so that this
                                     // direction is one of the field's
-    double radius = 0;            // metres, how far it is felt; 0: a tenth of the surface's radius
+    double radius = 0;              // metres, how far it is felt; 0: a tenth of the surface's radius
 };
 
 // The turns that a field makes about an element, in whole turns: 1/2 for a wedge, -1 for a saddle.
@@ -43,9 +47,10 @@ struct FieldDesign {
     std::vector<FieldElement> elements;
     glm::dvec3 drift{0, -1, 0};  // object space: where no element says otherwise the field leans to this direction
     double lean = 1;             // how much; 0: not at all
+    bool exact = false;          // the elements' singularities and no others, but for those that topology asks for
 };
 
-// The smoothest field that does what the design asks for: one sparse solve over the whole mesh. Fails for an element
+// The smoothest field that does what the design asks for: sparse solves over the whole mesh. Fails for an element
 // that the symmetry doesn't allow, and where the mesh has no triangles.
 Result<Field> designField(const FieldMesh& mesh, const FieldDesign& design);
 
@@ -53,12 +58,17 @@ Result<Field> designField(const FieldMesh& mesh, const FieldDesign& design);
 // symmetry 2, the direction that of the larger principal curvature, 1/m, positive on bulges.
 Field curvatureField(const FieldMesh& mesh);
 
-// A place about which the field turns, inside a triangle. turns: in N-ths of a whole turn, never 0.
+// By how much the field's N-th power turns along a half-edge beyond parallel transport, in [-pi, pi].
+double turnAlong(const FieldMesh& mesh, const Field& field, uint32_t halfEdge);
+
+// A place about which the field turns: an inner vertex, or inside a triangle. turns: in N-ths of a whole turn, never 0.
 struct Singularity {
-    uint32_t triangle = 0;
+    uint32_t triangle = 0;       // of a vertex: one that has it
+    uint32_t vertex = kNoIndex;  // kNoIndex: inside the triangle
     int turns = 0;
 };
-// On a closed mesh their turns add up to N times the Euler characteristic, exactly.
+// All of them. On a closed mesh their turns add up to N times the Euler characteristic, exactly.
 std::vector<Singularity> singularitiesOf(const FieldMesh& mesh, const Field& field);
+glm::dvec3 placeOf(const FieldMesh& mesh, const Singularity& singularity);
 
 }  // namespace espalier

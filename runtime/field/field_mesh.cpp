@@ -112,6 +112,14 @@ double cornerAngle(const FieldMesh& mesh, uint32_t halfEdge) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
+// Of the angle that lies opposite to a half-edge.
+double cotangent(const FieldMesh& mesh, uint32_t halfEdge) {
+    const dvec3 at = mesh.positions[mesh.from(FieldMesh::previous(halfEdge))];
+    const dvec3 a = mesh.positions[mesh.from(halfEdge)] - at, b = mesh.positions[mesh.to(halfEdge)] - at;
+    const double sine = glm::length(glm::cross(a, b));
+    return sine > 0 ? std::clamp(glm::dot(a, b) / sine, -20.0, 20.0) : 0;
+}
+
 void measureVertices(FieldMesh& mesh) {
     const size_t count = mesh.positions.size();
     mesh.normals.assign(count, dvec3(0));
@@ -123,8 +131,8 @@ void measureVertices(FieldMesh& mesh) {
         uint32_t h = mesh.first[v];
         do {
             const dvec3 at = mesh.positions[v];
-            const dvec3 across = glm::cross(mesh.positions[mesh.to(h)] - at,
-                                            mesh.positions[mesh.from(FieldMesh::previous(h))] - at);
+            const dvec3 across =
+                glm::cross(mesh.positions[mesh.to(h)] - at, mesh.positions[mesh.from(FieldMesh::previous(h))] - at);
             const double tip = cornerAngle(mesh, h), area = glm::length(across) / 2;
             mesh.angle[h] = sum;
             sum += tip;
@@ -181,6 +189,22 @@ double FieldMesh::transport(uint32_t halfEdge) const {
     return angle[leaving] + cornerAngle(*this, leaving) + std::numbers::pi - angle[halfEdge];
 }
 
+double FieldMesh::tip(uint32_t halfEdge) const {
+    const uint32_t after = nextAround(*this, halfEdge);
+    if (after == kNoIndex) return cornerAngle(*this, halfEdge);
+    return angle[after] - angle[halfEdge] + (after == first[from(halfEdge)] ? kTwoPi : 0);
+}
+
+double FieldMesh::curvature(uint32_t triangle) const {
+    return tip(3 * triangle) + tip(3 * triangle + 1) + tip(3 * triangle + 2) - std::numbers::pi;
+}
+
+double FieldMesh::edgeWeight(uint32_t halfEdge) const {
+    const double both =
+        cotangent(*this, halfEdge) + (twin[halfEdge] != kNoIndex ? cotangent(*this, twin[halfEdge]) : 0);
+    return std::max(both / 2, .02);
+}
+
 glm::dvec3 FieldMesh::direction(uint32_t vertex, double of) const {
     return axes[vertex] * std::cos(of) + glm::cross(normals[vertex], axes[vertex]) * std::sin(of);
 }
@@ -192,7 +216,7 @@ double FieldMesh::angleOf(uint32_t vertex, const glm::dvec3& direction) const {
 
 int FieldMesh::eulerCharacteristic() const {
     size_t edges = 0;
-    for (uint32_t h = 0; h < twin.size(); ++h) edges += twin[h] == kNoIndex || twin[h] > h;
+    for (uint32_t h = 0; h < twin.size(); ++h) edges += ownsEdge(h);
     return int(positions.size()) - int(edges) + int(triangles.size());
 }
 

@@ -20,16 +20,16 @@ namespace espalier {
 // "Globally optimal direction fields", §3), so that the indices of a field's singularities on a closed mesh add up to
 // its Euler characteristic.
 struct FieldMesh {
-    std::vector<glm::dvec3> positions;                // object space, metres
-    std::vector<std::array<uint32_t, 3>> triangles;   // counterclockwise as seen from outside
-    std::vector<uint32_t> twin;                       // [half-edge]: the other triangle's; kNoIndex: a border
-    std::vector<uint32_t> first;                      // [vertex]: a half-edge that leaves it; of a border, the first
-    std::vector<double> angle;                        // [half-edge]: at which it leaves its vertex, radians
-    std::vector<glm::dvec3> normals;                  // [vertex]: unit, outward
-    std::vector<glm::dvec3> axes;                     // [vertex]: unit tangent, the direction of angle 0
-    std::vector<double> areas;                        // [vertex]: a third of its triangles', m²
-    std::vector<bool> border;                         // [vertex]
-    double radius = 0;                                // half the diagonal of its bounds, metres
+    std::vector<glm::dvec3> positions;               // object space, metres
+    std::vector<std::array<uint32_t, 3>> triangles;  // counterclockwise as seen from outside
+    std::vector<uint32_t> twin;                      // [half-edge]: the other triangle's; kNoIndex: a border
+    std::vector<uint32_t> first;                     // [vertex]: a half-edge that leaves it; of a border, the first
+    std::vector<double> angle;                       // [half-edge]: at which it leaves its vertex, radians
+    std::vector<glm::dvec3> normals;                 // [vertex]: unit, outward
+    std::vector<glm::dvec3> axes;                    // [vertex]: unit tangent, the direction of angle 0
+    std::vector<double> areas;                       // [vertex]: a third of its triangles', m²
+    std::vector<bool> border;                        // [vertex]
+    double radius = 0;                               // half the diagonal of its bounds, metres
 
     // [triangle of the surface]: the mesh's; kNoIndex: it has no area.
     std::vector<uint32_t> triangleOf;
@@ -42,6 +42,16 @@ struct FieldMesh {
     static uint32_t previous(uint32_t halfEdge) { return halfEdge % 3 == 0 ? halfEdge + 2 : halfEdge - 1; }
     // What is to be added to the angle of a direction at from(h), moved in parallel along h, to get its angle at to(h).
     double transport(uint32_t halfEdge) const;
+    // The angle between a half-edge and the next one around its vertex, in the vertex's measure.
+    double tip(uint32_t halfEdge) const;
+    // The curvature within a triangle: by how much its three tips exceed half a turn. Those of a closed mesh add up to
+    // 2 pi times its Euler characteristic.
+    double curvature(uint32_t triangle) const;
+    // Of an edge's one or two half-edges exactly one.
+    bool ownsEdge(uint32_t halfEdge) const { return twin[halfEdge] == kNoIndex || twin[halfEdge] > halfEdge; }
+    // How strongly the ends of a half-edge's edge are bound to each other: half of both cotangents, but kept above
+    // zero, so that energies have one least value whatever the triangles' shapes.
+    double edgeWeight(uint32_t halfEdge) const;
     // The direction of an angle at a vertex, in object space; unit.
     glm::dvec3 direction(uint32_t vertex, double angle) const;
     // And back: the angle of a direction laid into the vertex's tangent plane.
@@ -50,8 +60,8 @@ struct FieldMesh {
     int eulerCharacteristic() const;
 };
 
-// Welds corners that are nearer than a millionth of the surface's radius. Where more than two triangles meet at an edge,
-// or a vertex joins several fans, these come apart.
+// Welds corners that are nearer than a millionth of the surface's radius. Where more than two triangles meet at an
+// edge, or a vertex joins several fans, these come apart.
 FieldMesh makeFieldMesh(const SurfaceData& surface);
 // The same from plain triangles: counterclockwise as seen from outside.
 FieldMesh makeFieldMesh(std::vector<glm::dvec3> corners);

@@ -61,8 +61,31 @@ EspResult espSetField(EspContext* context, EspSurface surface, const char* name,
         asked.elements.assign(def.elements, def.elements + def.elementCount);
         std::memcpy(asked.drift, def.drift, sizeof asked.drift);
         asked.lean = def.lean;
+        asked.exact = def.exact != 0;
         asked.number = context->nodes.fields.change();
         patterns.asked[key] = std::move(asked);
+        return ESP_OK;
+    });
+}
+
+EspResult espFieldSingularities(EspContext* context, EspSurface surface, const char* name, EspSingularity* out,
+                                uint32_t* count) {
+    return guarded(context, [&] {
+        const PlacedSurface* placed = context->surfaces.find(surface.id);
+        const FieldInfo* info = name ? fieldNamed(*context, name) : nullptr;
+        if (!placed || !info || !count)
+            return fail(context, ESP_INVALID_ARGUMENT,
+                        "espFieldSingularities: no such surface, no grammar that declares the field, or no count");
+        const Result<MadeField*> made = fieldOn(*context, surface.id, *info);
+        if (!made) return failWork(context, made.failure());
+        std::vector<Singularity> found;
+        const FieldMesh& mesh = context->patterns.ground[surface.id].mesh;
+        if (made.value()) found = singularitiesOf(mesh, made.value()->field);
+        for (uint32_t i = 0; out && i < std::min(size_t(*count), found.size()); ++i) {
+            const glm::vec3 place(placed->toWorld * glm::vec4(glm::vec3(placeOf(mesh, found[i])), 1));
+            out[i] = {{place.x, place.y, place.z}, float(found[i].turns) / float(info->symmetry)};
+        }
+        *count = uint32_t(found.size());
         return ESP_OK;
     });
 }

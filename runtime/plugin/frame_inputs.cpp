@@ -50,7 +50,7 @@ EspResult makeLook(EspContext& context, const std::string& call, const EspLook& 
     static_assert(uint32_t(ViewMode::charts) == ESP_VIEW_CHARTS && uint32_t(ViewMode::normals) == ESP_VIEW_NORMALS &&
                   uint32_t(ViewMode::lod) == ESP_VIEW_LOD && uint32_t(ViewMode::layer) == ESP_VIEW_LAYER &&
                   uint32_t(ViewMode::depth) == ESP_VIEW_DEPTH && uint32_t(ViewMode::overdraw) == ESP_VIEW_OVERDRAW);
-    look.view = ViewMode(from.view);
+    look.view = from.view == ESP_VIEW_FIELD ? ViewMode::layer : ViewMode(from.view);
     look.lodPixels = from.lodPixels;
     look.leafPixels = from.leafPixels;
     look.layerOpacity = from.viewOpacity;
@@ -74,10 +74,22 @@ EspResult makeLook(EspContext& context, const std::string& call, const EspLook& 
     return ESP_OK;
 }
 
+// A field's picture is a layer of colours. Pieces would cover it.
+EspResult showField(EspContext& context, const std::string& call, const std::string& name, DrawInputs& inputs) {
+    const FieldInfo* info = fieldNamed(context, name);
+    if (!info) return fail(&context, ESP_INVALID_ARGUMENT, call + ": no grammar declares a field '" + name + "'");
+    const Result<LayerBuf> layers = fieldLayers(context, *info);
+    if (!layers) return failWork(&context, layers.failure());
+    inputs.layers = layers.value();
+    inputs.look.layer = colourLayers(0, 1, 2);
+    inputs.look.pieces = false;
+    return ESP_OK;
+}
+
 }  // namespace
 
 EspResult checkLook(const EspContext* context, const std::string& call, const EspLook& look) {
-    if (!isAmong(look.view, ESP_VIEW_SHADED, ESP_VIEW_OVERDRAW))
+    if (!isAmong(look.view, ESP_VIEW_SHADED, ESP_VIEW_FIELD))
         return fail(context, ESP_INVALID_ARGUMENT, call + ": no such view");
     if (!finiteLook(look)) return fail(context, ESP_INVALID_ARGUMENT, call + ": a number of the look is not finite");
     return ESP_OK;
@@ -105,6 +117,7 @@ EspResult findInputs(EspContext& context, const std::string& call, const EspLook
     inputs.carriers = context.carriersPlaced();
     inputs.placed = inputs.carriers;
     inputs.layers = addressOf<LayerBuf>(context.layerTable);
+    if (look.view == ESP_VIEW_FIELD) return showField(context, call, look.viewLayer ? look.viewLayer : "", inputs);
     return ESP_OK;
 }
 

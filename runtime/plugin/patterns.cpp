@@ -103,60 +103,6 @@ class Gathering {
     PatternPlanting out_;
 };
 
-Result<FieldGround*> groundOf(EspContext& context, uint32_t id) {
-    FieldGround& ground = context.patterns.ground[id];
-    if (ground.surface) return &ground;
-    const PlacedSurface& placed = *context.surfaces.find(id);
-    auto surface = std::make_unique<SurfaceData>();
-    surface->charts = placed.data.charts;
-    if (Status read = placed.gpu.readForFields(*context.device, *surface); !read) return read.failure();
-    ground.mesh = makeFieldMesh(*surface);
-    ground.surface = std::move(surface);
-    return &ground;
-}
-
-glm::dvec3 turnedBy(const glm::mat4& m, const float v[3]) {
-    return glm::dvec3(glm::mat3(m) * vec(v));
-}
-
-FieldDesign designOf(const AskedField& asked, const PlacedSurface& surface, uint32_t symmetry) {
-    FieldDesign design;
-    design.symmetry = symmetry;
-    design.drift = turnedBy(surface.toObject, asked.drift);
-    design.lean = double(asked.lean);
-    for (const EspFieldElement& e : asked.elements) {
-        const FieldElement element{ElementKind(e.kind), glm::dvec3(surface.toObject * glm::vec4(vec(e.position), 1)),
-                                   turnedBy(surface.toObject, e.direction), double(e.radius / surface.scale)};
-        if (fits(element.kind, symmetry)) design.elements.push_back(element);
-    }
-    return design;
-}
-
-// The field's texels on one surface, made if what was asked for is another than they were made from.
-Result<FieldRef> fieldOn(EspContext& context, uint32_t id, const FieldInfo& info) {
-    const PlacedSurface& surface = *context.surfaces.find(id);
-    Result<FieldGround*> found = groundOf(context, id);
-    if (!found) return found.failure();
-    FieldGround& ground = **found;
-    if (ground.mesh.triangles.empty()) return FieldRef{};
-    static const AskedField kDefault;
-    const auto asked = context.patterns.asked.find({id, info.name});
-    const AskedField& wish = asked != context.patterns.asked.end() ? asked->second : kDefault;
-    MadeField& made = ground.made[info.name + (info.curvature ? "\n" : "")];
-    const bool same = made.texels && made.symmetry == info.symmetry &&
-                      (info.curvature || (made.asked == wish.number && made.toObject == surface.toObject));
-    if (!same) {
-        Result<Field> field = info.curvature ? Result<Field>(curvatureField(ground.mesh))
-                                             : designField(ground.mesh, designOf(wish, surface, info.symmetry));
-        if (!field) return field.failure();
-        Result<Buffer> texels =
-            makeBuffer(*context.device, "field texels", fieldTexels(*ground.surface, ground.mesh, *field));
-        if (!texels) return texels.failure();
-        made = {wish.number, info.symmetry, info.curvature, surface.toObject, std::move(*texels)};
-    }
-    return FieldRef{addressOf<FieldTexelBuf>(made.texels), ground.surface->levels[0].size, made.symmetry};
-}
-
 // [(map * surfaces + instance) * kMaxFields + field]
 Result<std::vector<FieldRef>> fieldTable(EspContext& context, const PatternPlanting& planting) {
     const uint32_t count = std::max(context.surfaceSlots(), 1u);
@@ -166,17 +112,13 @@ Result<std::vector<FieldRef>> fieldTable(EspContext& context, const PatternPlant
     for (size_t m = 0; m < planting.maps.size(); ++m)
         for (const auto& [id, instance] : surfaces)
             for (size_t f = 0; f < planting.rules[m]->fields().size(); ++f) {
-                Result<FieldRef> ref = fieldOn(context, id, planting.rules[m]->fields()[f]);
-                if (!ref) return ref.failure();
-                table[(m * count + instance) * kMaxFields + f] = *ref;
+                Result<MadeField*> made = fieldOn(context, id, planting.rules[m]->fields()[f]);
+                if (!made) return made.failure();
+                if (const MadeField* field = *made)
+                    table[(m * count + instance) * kMaxFields + f] = {addressOf<FieldTexelBuf>(field->texels),
+                                                                      field->size, field->symmetry};
             }
     return table;
-}
-
-// Of surfaces that are there no more.
-void forgetGone(EspContext& context) {
-    std::erase_if(context.patterns.ground, [&](const auto& g) { return !context.surfaces.find(g.first); });
-    std::erase_if(context.patterns.asked, [&](const auto& a) { return !context.surfaces.find(a.first.first); });
 }
 
 EspResult derive(EspContext& context, const PatternPlanting& planting) {
@@ -250,7 +192,7 @@ EspResult updatePatterns(EspContext& context) {
     if (!any) return ESP_OK;
     if (Status tables = context.refreshTables(); !tables) return failGpu(&context, tables.failure());
     if (Status variants = refreshVariants(context); !variants) return failGpu(&context, variants.failure());
-    forgetGone(context);
+    forgetGoneFields(context);
     const PatternPlanting planting = Gathering(context).run();
     const uint64_t wanted = planting.seeds.empty() ? 0 : planting.signature;
     if (wanted == patterns.grownFrom) {  // what changed is of plants alone

@@ -12,6 +12,7 @@
 
 #include "plugin_api/espalier.h"
 #include "runtime/emit/terminals.hpp"
+#include "runtime/field/field_solver.hpp"
 #include "runtime/field/field_texels.hpp"
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/pattern/pattern_growth.hpp"
@@ -24,6 +25,7 @@ struct AskedField {
     std::vector<EspFieldElement> elements;
     float drift[3] = {0, -1, 0};
     float lean = 1;
+    bool exact = false;
     Version number = 0;  // unlike any other that was asked for; 0: the default
 };
 
@@ -31,15 +33,26 @@ struct AskedField {
 struct MadeField {
     Version asked = 0;  // AskedField::number
     uint32_t symmetry = 0;
-    bool curvature = false;
     glm::mat4 toObject{1};  // by which elements and drift were taken into object space
+    std::unique_ptr<FieldSolver> solver;
+    Field field;
     Buffer texels;
+    uint32_t size = 0;  // texels a side
 };
 
 struct FieldGround {
     std::unique_ptr<SurfaceData> surface;  // what fields need of it
     FieldMesh mesh;
+    std::unique_ptr<FieldSampling> sampling;
     std::map<std::string, MadeField> made;
+};
+
+// A field as pictures show it: three layers a surface, the colours.
+struct FieldView {
+    std::string name;
+    std::vector<uint64_t> from;  // versions of what it was made from
+    std::vector<Buffer> texels;
+    Buffer table;  // as EspContext::layerTable, of the first three layers only
 };
 
 struct ContextPatterns {
@@ -50,11 +63,22 @@ struct ContextPatterns {
     std::unique_ptr<PatternGrowth> growth;                         // made when the first pattern grows
     std::map<std::pair<uint32_t, std::string>, AskedField> asked;  // by surface's id and name
     std::map<uint32_t, FieldGround> ground;                        // by surface's id; made when a pattern first asks
+    FieldView view;
     uint64_t grownFrom = 0;  // what the pattern was derived from; 0: nothing stands
     uint32_t seeds = 0;
     PatternStats stats;
     FailedInputs failed;
 };
+
+// A field of this name that a grammar declares; null: none does.
+const FieldInfo* fieldNamed(const EspContext& context, const std::string& name);
+// A field on one surface, made anew if what was asked for is another than it was made from. Null: the surface has no
+// triangles.
+Result<MadeField*> fieldOn(EspContext& context, uint32_t surface, const FieldInfo& info);
+// Drops what is known of surfaces that are there no more.
+void forgetGoneFields(EspContext& context);
+// A table of layers whose first three show the field on each surface.
+Result<LayerBuf> fieldLayers(EspContext& context, const FieldInfo& info);
 
 // Names of the meshes that grammars of patterns may ask for; reads their file the first time.
 Status knowPieces(EspContext& context);

@@ -49,6 +49,7 @@ struct Look {
     float layerOpacity = 1;
     BrushLimits limits = kNoLimits;  // that layer is hatched beyond them
     uint32_t level = 0;              // for ViewMode::charts
+    bool pieces = true;              // false: those of patterns aren't drawn
     float lodPixels = 1;             // error allowed when choosing LOD, pixels
     float leafPixels = 8;  // leaves of at least so many are all drawn, of smaller ones fewer and larger; beyond 8 also
                            // fewer twigs

@@ -303,7 +303,7 @@ void Renderer::begin(const DrawInputs& inputs, PassFormat pass) {
     now_.pass = std::move(pass);
     now_.grows = inputs.growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
     now_.roofed = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
-    now_.patterned = pieces_ && !pieces_->empty();
+    now_.patterned = pieces_ && !pieces_->empty() && inputs.look.pieces;
     now_.walkData = inputs.surfaces.v != nullptr;
     now_.onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
 }

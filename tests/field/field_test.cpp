@@ -17,10 +17,6 @@ int turnsOf(const FieldMesh& mesh, const Field& field) {
     for (const Singularity& s : singularitiesOf(mesh, field)) sum += s.turns;
     return sum;
 }
-double medianOf(std::vector<double> all) {
-    std::ranges::nth_element(all, all.begin() + all.size() / 2);
-    return all[all.size() / 2];
-}
 
 }  // namespace
 
@@ -49,8 +45,8 @@ TEST_CASE("a singular element puts the singularity that it names beside its plac
     const struct {
         ElementKind kind;
         int turns;
-    } rows[] = {{ElementKind::wedge, 1}, {ElementKind::trisector, -1}, {ElementKind::node, 2},
-                {ElementKind::centre, 2}, {ElementKind::saddle, -2}, {ElementKind::regular, 0}};
+    } rows[] = {{ElementKind::wedge, 1},  {ElementKind::trisector, -1}, {ElementKind::node, 2},
+                {ElementKind::centre, 2}, {ElementKind::saddle, -2},    {ElementKind::regular, 0}};
     for (const auto& row : rows) {
         FieldDesign design;
         design.lean = 0;
@@ -59,7 +55,8 @@ TEST_CASE("a singular element puts the singularity that it names beside its plac
         REQUIRE(field);
         int near = 0;
         for (const Singularity& s : singularitiesOf(mesh, field.value()))
-            if (glm::length(mesh.positions[mesh.triangles[s.triangle][0]] - glm::dvec3(.3, 0, .2)) < .4) near += s.turns;
+            if (glm::length(mesh.positions[mesh.triangles[s.triangle][0]] - glm::dvec3(.3, 0, .2)) < .4)
+                near += s.turns;
         CHECK(near == row.turns);
     }
 }
@@ -95,7 +92,8 @@ TEST_CASE("a polar map agrees with straight lines on a plane and great circles o
     REQUIRE(map.reached.size() == plane.positions.size());
     for (uint32_t v : map.reached) {
         if (v == middle) continue;
-        CHECK(map.distance[v] == doctest::Approx(glm::length(plane.positions[v] - plane.positions[middle])).epsilon(1e-6));
+        CHECK(map.distance[v] ==
+              doctest::Approx(glm::length(plane.positions[v] - plane.positions[middle])).epsilon(1e-6));
         const double off = map.angle[v] - plane.angleOf(middle, plane.positions[v] - plane.positions[middle]);
         CHECK(std::abs(std::remainder(off, 2 * std::numbers::pi)) < 1e-6);
     }
@@ -107,8 +105,8 @@ TEST_CASE("a polar map agrees with straight lines on a plane and great circles o
         const double great = std::acos(std::clamp(glm::dot(sphere.positions[v], sphere.positions[pole]), -1.0, 1.0));
         if (great < .1 || great > 3) continue;
         distances.push_back(std::abs(round.distance[v] / great - 1));
-        angles.push_back(std::abs(
-            std::remainder(round.angle[v] - sphere.angleOf(pole, sphere.positions[v]), 2 * std::numbers::pi)));
+        angles.push_back(
+            std::abs(std::remainder(round.angle[v] - sphere.angleOf(pole, sphere.positions[v]), 2 * std::numbers::pi)));
     }
     CHECK(medianOf(distances) < .003);
     CHECK(medianOf(angles) < .026);

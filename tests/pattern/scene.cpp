@@ -103,7 +103,7 @@ void Scene::setField(const std::string& name, const Field& field) {
     const auto& known = grammars_.back().fields();
     for (uint32_t i = 0; i < known.size(); ++i) {
         if (known[i].name != name) continue;
-        fields_.back()[i] = fieldTexels(surface_, mesh_, field);
+        fields_.back()[i] = FieldSampling(surface_, mesh_).texels(field);
         symmetry_.back()[i] = field.symmetry;
     }
 }

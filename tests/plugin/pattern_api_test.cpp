@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "tests/plugin/life.hpp"
 
@@ -147,4 +148,36 @@ TEST_CASE("another palette is taken before a grammar knows the meshes, and a wro
     CHECK(espSetPieces(life.context, nullptr) == ESP_OK);
     text = esp::grammarDef("scales", scales);
     CHECK(espCompileGrammar(life.context, &text, &life.grammar) == ESP_OK);
+}
+
+TEST_CASE("a field can be seen, and its singularities listed") {
+    Pattern pattern;
+    esp::DrawDef def;
+    def.width = 64;
+    def.height = 36;
+    def.camera = esp::frameAll(pattern.context);
+    def.look.view = ESP_VIEW_FIELD;
+    def.look.viewLayer = "grain";
+    CHECK(espDraw(pattern.context, &def) == ESP_INVALID_ARGUMENT);
+    def.look.viewLayer = "flow";
+    const auto picture = [&] {
+        std::vector<uint8_t> pixels(64 * 36 * 4);
+        REQUIRE_MESSAGE(espDraw(pattern.context, &def) == ESP_OK, espLastError(pattern.context));
+        REQUIRE(espReadPixels(pattern.context, pixels.data(), pixels.size()) == ESP_OK);
+        return pixels;
+    };
+    const auto down = picture();
+    CHECK(down == picture());
+    pattern.setElement(ESP_ELEMENT_REGULAR, .2f);
+    REQUIRE(pattern.update());
+    CHECK(down != picture());
+
+    uint32_t count = 0;
+    CHECK(espFieldSingularities(pattern.context, pattern.surface, "grain", nullptr, &count) == ESP_INVALID_ARGUMENT);
+    CHECK(espFieldSingularities(pattern.context, {12345}, "flow", nullptr, &count) == ESP_INVALID_ARGUMENT);
+    pattern.setElement(ESP_ELEMENT_WEDGE, .2f);
+    REQUIRE(espFieldSingularities(pattern.context, pattern.surface, "flow", nullptr, &count) == ESP_OK);
+    std::vector<EspSingularity> all(count);
+    REQUIRE(espFieldSingularities(pattern.context, pattern.surface, "flow", all.data(), &count) == ESP_OK);
+    for (const EspSingularity& s : all) CHECK(std::abs(s.index) == .5f);
 }

@@ -102,7 +102,7 @@ void addOptions(CLI::App& app, Options& options) {
            "NAME=FILE: after the last frame writes a layer over the surface's walk UVs, or of a town's seen from "
            "above (.exr, .png)")
         ->allow_extra_args(false);
-    app.add_option("--view", options.view, "shaded, charts, normals, lod, depth, overdraw or layer:NAME")
+    app.add_option("--view", options.view, "shaded, charts, normals, lod, depth, overdraw, layer:NAME or field:NAME")
         ->capture_default_str()
         ->excludes(replay);
     app.add_option("--camera", options.camera, "EX,EY,EZ,TX,TY,TZ[,FOV]: eye, target, vertical angle in degrees")
@@ -150,11 +150,11 @@ bool parseCamera(const std::string& text, EspCamera& camera) {
 }
 
 bool parseView(const std::string& text, EspLook& look) {
-    if (text != "layer" && viewNamed(text, look.view)) return true;
-    if (text.rfind("layer:", 0) != 0) return false;
-    look.view = ESP_VIEW_LAYER;
-    look.viewLayer = text.c_str() + 6;
-    return true;
+    const size_t colon = std::min(text.find(':'), text.size());
+    if (!viewNamed(text.substr(0, colon), look.view)) return false;
+    const bool named = look.view == ESP_VIEW_LAYER || look.view == ESP_VIEW_FIELD;
+    if (named) look.viewLayer = text.c_str() + std::min(colon + 1, text.size());
+    return named == (colon < text.size());
 }
 
 // Of a town only.

@@ -39,6 +39,7 @@ EspResult setFields(EspContext* context, EspSurface surface, const std::vector<S
         def.elementCount = uint32_t(elements.size());
         std::memcpy(def.drift, field.drift.data(), sizeof def.drift);
         def.lean = field.lean;
+        def.exact = field.exact;
         if (const EspResult set = espSetField(context, surface, field.name.c_str(), &def); set != ESP_OK) return set;
     }
     return ESP_OK;

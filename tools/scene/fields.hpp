@@ -26,9 +26,10 @@ struct SceneField {
     std::array<float, 3> drift{0, -1, 0};
     float lean = 1;
     std::vector<SceneElement> elements;
+    bool exact = false;  // no singularities but the elements' and those that topology asks for
     template <class V>
     void fields(V&& v) {
-        v("name", name), v("drift", drift), v("lean", lean), v("elements", elements);
+        v("name", name), v("drift", drift), v("lean", lean), v("elements", elements), v("exact", exact);
     }
     bool operator==(const SceneField&) const = default;
 };

@@ -10,7 +10,7 @@
 namespace espalier::scene {
 namespace {
 
-constexpr const char* kViews[] = {"shaded", "charts", "normals", "lod", "layer", "depth", "overdraw"};
+constexpr const char* kViews[] = {"shaded", "charts", "normals", "lod", "layer", "depth", "overdraw", "field"};
 constexpr const char* kWalks[] = {"intrinsic", "paper"};
 
 }  // namespace

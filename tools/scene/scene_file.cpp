@@ -108,13 +108,14 @@ class Reader : JsonChecks {
     void readFields(const Json& json, std::vector<SceneField>& fields) {
         if (json.kind != Json::Kind::object) return (void)fail(json, "'fields' must be an object");
         for (const auto& [name, said] : json.members) {
-            if (!isObject(said, "a field", {"drift", "lean", "elements"})) continue;
+            if (!isObject(said, "a field", {"drift", "lean", "exact", "elements"})) continue;
             SceneField& field = fields.emplace_back();
             field.name = name;
             std::optional<std::array<float, 3>> drift;
             vector(said, "drift", drift);
             field.drift = drift.value_or(field.drift);
             number(said, "lean", 0, 1e6f, field.lean);
+            flag(said, "exact", field.exact);
             if (const Json* elements = list(said, "elements"))
                 for (const Json& element : elements->items) readElement(element, field.elements.emplace_back());
         }

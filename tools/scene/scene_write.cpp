@@ -58,6 +58,7 @@ ordered_json townJson(const SceneTown& town, const std::string& file) {
 
 ordered_json fieldJson(const SceneField& field) {
     ordered_json json{{"drift", shortestList(field.drift)}, {"lean", shortest(field.lean)}};
+    if (field.exact) json["exact"] = true;
     for (const SceneElement& e : field.elements) {
         ordered_json& out = json["elements"].emplace_back(ordered_json{{"kind", e.kind},
                                                                        {"position", shortestList(e.position)},
