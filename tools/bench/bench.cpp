@@ -74,4 +74,9 @@ Status Bench::writeCsv(const std::string& path) const {
     return writeFile(path, text);
 }
 
+std::string textOf(const std::string& path) {
+    Result<std::vector<std::byte>> bytes = readFile(path);
+    return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : std::string();
+}
+
 }  // namespace espalier

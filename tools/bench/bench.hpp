@@ -56,8 +56,11 @@ double seconds(const std::function<void()>& work);
 // CPU time of all threads: what a machine that others use measures alike.
 double cpuSeconds(const std::function<void()>& work);
 double median(std::vector<double> values);
+// A file's text; empty where there is none.
+std::string textOf(const std::string& path);
 
 void growthCases(Bench& bench);
+void fieldCases(Bench& bench);
 void patternCases(Bench& bench);
 void editCases(Bench& bench);
 void emitCases(Bench& bench);

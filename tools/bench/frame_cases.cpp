@@ -190,13 +190,6 @@ struct Film {
     }
 };
 
-std::string textOf(const std::string& path) {
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
 // As many seeds as it takes.
 bool growEnough(BenchScene& scene, Growth& growth) {
     uint32_t seeds = 40;
@@ -211,9 +204,9 @@ bool growEnough(BenchScene& scene, Growth& growth) {
 }
 
 // A dab of a quarter of a metre or so, each at another node, the mask now higher, now as it was.
-class Painter {
+class FramePainter {
   public:
-    Painter(BenchScene& scene, Growth& growth, Film& film) : scene_(scene), growth_(growth), film_(film) {
+    FramePainter(BenchScene& scene, Growth& growth, Film& film) : scene_(scene), growth_(growth), film_(film) {
         Result<GrowthRecords> records = growth.read();
         if (!records) return;
         std::vector<uint32_t> places;  // in an order that all runs have
@@ -294,7 +287,7 @@ void frameCases(Bench& bench) {
     const double movingHalf = film.cost(kHalf, 2).median;
     const uint32_t drawn = (*renderer)->stats().emit.leaves;
     const FrameClock wall = film.clock(kHalf, 2);
-    Painter painter(*scene, **growth, film);
+    FramePainter painter(*scene, **growth, film);
     film.inputs.look.shadowsLag = true;  // as in the window
     const FrameTimes painting = film.cost(kHalf, 0, [&](int frame) { painter.dab(frame); });
     std::printf("%u nodes, %u leaves grown; %u spans and %u leaves in view, %.2f million triangles of them\n",

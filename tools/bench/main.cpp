@@ -25,7 +25,7 @@ int measureAsAsked(int argc, char** argv) {
     app.set_version_flag("--version", ESPALIER_VERSION);
     app.add_option("--filter", options.filter,
                    "only cases whose name contains this: growth/, edit/, emit/, frame/, render/, paint/, bake/, "
-                   "surface/, contact/, move/, roof/");
+                   "surface/, contact/, move/, roof/, pattern/, field/");
     app.add_option("--csv", csv, "also write the rows to this file");
     app.add_option("--data", options.dataFolder, "folder of further models")->capture_default_str();
     app.add_option("--modules", options.modulesFolder,
@@ -40,6 +40,7 @@ int measureAsAsked(int argc, char** argv) {
         std::printf("device: %s (%s)\n", (*device)->info().name.c_str(), (*device)->info().driver.c_str());
     Bench bench(options);
     growthCases(bench);
+    fieldCases(bench);
     patternCases(bench);
     editCases(bench);
     emitCases(bench);

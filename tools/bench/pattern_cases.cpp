@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <numbers>
 
-#include "runtime/core/file.hpp"
 #include "runtime/field/field_texels.hpp"
 #include "runtime/grammar/grammar.hpp"
 #include "runtime/pattern/pattern_data.hpp"
@@ -86,7 +85,7 @@ struct PatternBench {
             design.symmetry = rules.fields()[f].symmetry;
             Result<Field> field = designField(mesh, design);
             if (!field) return field.failure();
-            texels.push_back(fieldTexels(surface, mesh, *field));
+            texels.push_back(FieldSampling(surface, mesh).texels(*field));
             fields.back() = {{texels.back().data()}, surface.levels[0].size, design.symmetry};
         }
         maps = {rules.ref()};
@@ -117,11 +116,6 @@ struct PatternBench {
         return seed;
     }
 };
-
-std::string textOf(const std::string& path) {
-    Result<std::vector<std::byte>> bytes = readFile(path);
-    return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : std::string();
-}
 
 }  // namespace
 
