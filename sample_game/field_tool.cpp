@@ -15,11 +15,18 @@ using namespace espalier::document;
 using espalier::scene::SceneElement;
 using espalier::scene::SceneField;
 
-constexpr float kElementReach = 12;  // pixels at 96 dpi around a marker
+constexpr float kElementReach = 12;    // pixels at 96 dpi around a marker
 constexpr float kElementArrow = .12f;  // of the scene's size
+constexpr float kStrokeStep = .6f;     // between a stroke's elements, of the reach of elements
+constexpr float kStrokeWidth = 1.5f;   // how far one of them is felt, of that
 
 float arrowOf(const Workspace& work) {
     return kElementArrow * work.reach();
+}
+
+// How far the next element is felt.
+float reachOf(const Workspace& work) {
+    return work.field.radius > 0 ? work.field.radius : .1f * work.reach();
 }
 
 // Which of the scene's surfaces a hit is on; nothing: none.
@@ -96,6 +103,23 @@ void FieldTool::place(Workspace& work, const EspHit& hit) {
     drag_ = Drag::direction;
 }
 
+// One element a step of the stroke, all of them one undo step.
+void FieldTool::layStroke(Workspace& work, const EspHit& hit) {
+    if (surfaceOf(work, hit) != work.field.surface) return;
+    const glm::vec3 point = vec(hit.position), way = point - laid_;
+    const float step = kStrokeStep * reachOf(work);
+    if (glm::length(way) < step) return;
+    SceneField field = fieldNow(work, work.field.surface);
+    SceneElement element;
+    element.position = array(point);
+    element.direction = array(glm::normalize(way));
+    element.radius = kStrokeWidth * step;
+    field.elements.push_back(element);
+    if (!work.perform(SetField{uint32_t(work.field.surface), std::move(field)}, gesture_)) return;
+    laid_ = point;
+    changed_ = true;
+}
+
 void FieldTool::press(Workspace& work, glm::vec2 at) {
     const std::vector<std::string> names = designedFields(work);
     if (names.empty()) return work.say("No grammar of this scene reads a field");
@@ -122,13 +146,20 @@ void FieldTool::press(Workspace& work, glm::vec2 at) {
     if (drag_ == Drag::move) return;
     const auto hit = work.pick(at);
     if (!hit) return work.say("No surface there");
-    place(work, *hit);
+    if (work.field.kind != kStroke) return place(work, *hit);
+    const auto surface = surfaceOf(work, *hit);
+    if (!surface) return;
+    work.field.surface = *surface;
+    work.field.element.reset();
+    laid_ = vec(hit->position);
+    drag_ = Drag::stroke;
 }
 
 void FieldTool::follow(Workspace& work, glm::vec2 at) {
     moved_ = moved_ || glm::distance(at, from_) > 4 * work.scale;
     const auto hit = moved_ ? work.pick(at) : std::nullopt;
     if (!hit) return;
+    if (drag_ == Drag::stroke) return layStroke(work, *hit);
     const glm::vec3 point = vec(hit->position);
     changeElement(work, gesture_, [&](SceneElement& e) {
         const glm::vec3 to = point - vec(e.position);
@@ -149,7 +180,10 @@ bool FieldTool::take(Workspace& work, const PointerEvent& event) {
     }
     if (drag_ == Drag::none) return false;
     if (event.kind == Kind::move) follow(work, {event.x, event.y});
-    if (event.kind == Kind::release && left) drag_ = Drag::none;
+    if (event.kind == Kind::release && left) {
+        if (drag_ == Drag::stroke && !changed_) work.say("Drag over the model: the field follows");
+        drag_ = Drag::none;
+    }
     return true;
 }
 

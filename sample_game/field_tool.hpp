@@ -5,8 +5,8 @@
 
 namespace sample {
 
-// Elements of the field in hand: a click places one, a drag gives its direction. A click on one chooses it, a drag of it
-// moves it, a drag of its arrow turns it.
+// Elements of the field in hand: a click places one, a drag gives its direction. A click on one chooses it, a drag of
+// it moves it, a drag of its arrow turns it. Where a stroke is asked for, a drag lays elements along its way.
 class FieldTool {
   public:
     bool take(Workspace& work, const PointerEvent& event);
@@ -17,16 +17,21 @@ class FieldTool {
     void draw(const Workspace& work) const;
 
   private:
-    enum class Drag { none, direction, move };
+    enum class Drag { none, direction, move, stroke };
     void press(Workspace& work, glm::vec2 at);
     void follow(Workspace& work, glm::vec2 at);
     void place(Workspace& work, const EspHit& hit);
+    void layStroke(Workspace& work, const EspHit& hit);
 
     Drag drag_ = Drag::none;
     glm::vec2 from_{0};
+    glm::vec3 laid_{0};  // where the stroke's last element ends
     bool moved_ = false, changed_ = false;
     uint32_t gesture_ = 0;
 };
+
+// In the place of a kind of element: a drag lays regular ones that point along its way.
+inline constexpr const char* kStroke = "stroke";
 
 // The fields that the scene's grammars read and that elements may form.
 std::vector<std::string> designedFields(const Workspace& work);

@@ -16,7 +16,8 @@ using espalier::scene::SceneField;
 struct Kind {
     const char *name, *label, *tip;
 };
-constexpr Kind kKinds[] = {{"regular", "Direction", "The field has this direction here"},
+constexpr Kind kKinds[] = {{kStroke, "Flow stroke", "A drag over the model lays directions along its way"},
+                           {"regular", "Direction", "The field has this direction here"},
                            {"wedge", "Wedge", "The field turns about the place by half a turn"},
                            {"trisector", "Trisector", "By half a turn against the way around"},
                            {"node", "Node", "Directions lead away from the place"},
@@ -29,11 +30,12 @@ const char* labelOf(const std::string& kind) {
     return "";
 }
 
-// True: another kind was taken.
-bool chooseKind(const char* id, std::string& kind) {
+// True: another kind was taken. strokes: they are offered, too.
+bool chooseKind(const char* id, std::string& kind, bool strokes) {
     bool changed = false;
     if (!beginCombo(id, labelOf(kind))) return false;
     for (const Kind& k : kKinds) {
+        if (!strokes && k.name == std::string_view(kStroke)) continue;
         if (ImGui::Selectable(k.label, kind == k.name)) {
             kind = k.name;
             changed = true;
@@ -69,6 +71,32 @@ void leanRow(Workspace& work) {
     toolTip("How much the field leans downward where no element is felt");
 }
 
+void viewRow(Workspace& work) {
+    bool seen = work.scene().look.view == ESP_VIEW_FIELD;
+    if (checkBox("Show the field", &seen))
+        work.perform(SetView{seen ? "field" : "shaded", seen ? work.field.name : ""});
+    toolTip(
+        "Streaks along its directions, and a mark where it turns about a place: warm with the way around, blue against "
+        "it");
+}
+
+void exactRow(Workspace& work) {
+    if (work.scene().surfaces.empty()) return;
+    bool exact = fieldNow(work, 0).exact;
+    if (checkBox("Only these singularities", &exact)) {
+        const uint32_t gesture = work.newGesture();
+        for (size_t s = 0; s < work.scene().surfaces.size(); ++s) {
+            SceneField field = fieldNow(work, s);
+            field.exact = exact;
+            work.perform(SetField{uint32_t(s), std::move(field)}, gesture);
+        }
+    }
+    toolTip(
+        "The field turns about the elements and nowhere else, but for what topology asks for: about a closed body "
+        "without "
+        "handles two whole turns together");
+}
+
 }  // namespace
 
 void fieldsPanel(Workspace& work) {
@@ -81,19 +109,22 @@ void fieldsPanel(Workspace& work) {
             if (ImGui::Selectable(name.c_str(), name == work.field.name)) {
                 work.field.name = name;
                 work.field.element.reset();
+                if (work.scene().look.view == ESP_VIEW_FIELD) work.perform(SetView{"field", name});
             }
         ImGui::EndCombo();
     }
     toolTip("Which of the fields that the grammars read");
     rowLabel("Next");
-    (void)chooseKind("##next", work.field.kind);
-    toolTip("What a click places");
+    (void)chooseKind("##next", work.field.kind, true);
+    toolTip("What a click or a drag places");
+    viewRow(work);
     leanRow(work);
+    exactRow(work);
     elementRows(work);
     if (const SceneElement* chosen = chosenElement(work)) {
         std::string kind = chosen->kind;
         rowLabel("Kind");
-        if (chooseKind("##kind", kind))
+        if (chooseKind("##kind", kind, false))
             changeElement(work, work.newGesture(), [&](SceneElement& e) { e.kind = kind; });
         float radius = chosen->radius > 0 ? chosen->radius : .1f * work.reach();
         if (labelledSlider("Reach", &radius, .005f * work.reach(), work.reach(), "%.2f m", true)) {
