@@ -528,6 +528,7 @@ ESP_API EspResult espMaterialise(EspContext* context, EspTriangles* out);
 #endif
 
 #include "espalier_paint.h"
+#include "espalier_parts.h"
 #include "espalier_pass.h"
 #include "espalier_patterns.h"
 #include "espalier_plants.h"

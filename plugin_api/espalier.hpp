@@ -74,6 +74,9 @@ inline void setDefaults(EspPassDef& def) {
 inline void setDefaults(EspFieldDef& def) {
     (void)espDefaultFieldDef(&def);
 }
+inline void setDefaults(EspPartsDef& def) {
+    (void)espDefaultPartsDef(&def);
+}
 inline void setDefaults(EspLayerDef& def) {
     (void)espDefaultLayerDef(&def);
 }

@@ -71,6 +71,7 @@ class GridWriter {
     void cell(uint32_t column, uint32_t row, bool whole) {
         const bool bond = (g_.mesh & kGridBond) != 0 && (row & 1u) != 0;
         const glm::vec2 corner((float(column) - (bond ? 0.5f : 0.0f)) * g_.step.x, float(row) * g_.step.y);
+        if (whole && out_.cellsApart && apart(corner)) return;
         const RoofMesh bounds = env_.meshes.v[g_.mesh & 255u];
         for (uint32_t i = 0; i + 2 < lod_->indexCount; i += 3) {
             Polygon triangle;
@@ -96,6 +97,13 @@ class GridWriter {
                     write(std::move(piece), false);
                 }
         }
+    }
+    bool apart(glm::vec2 corner) {
+        if (g_.taper.x != 0 || g_.taper.y != 0 || !(g_.thickness > 0)) return false;
+        const glm::vec3 x(g_.axisX), y(g_.axisY);
+        out_.cells.push_back({x * g_.size.x, y * g_.size.y, up_ * g_.thickness,
+                              plot_ + glm::vec3(g_.origin) + x * corner.x + y * corner.y});
+        return true;
     }
     void write(Polygon polygon, bool whole) {
         if (!whole && (g_.mesh & kGridRect) != 0) {

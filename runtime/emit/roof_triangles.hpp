@@ -12,6 +12,12 @@
 namespace espalier {
 
 struct RoofTriangles {
+    // Whole cells, where they are wanted apart: the mesh goes there by these columns. Those that taper never are.
+    struct Cell {
+        glm::vec3 x, y, z, origin;
+    };
+    bool cellsApart = false;
+    std::vector<Cell> cells;
     std::vector<glm::vec3> positions, normals;  // world, metres
     std::vector<uint32_t> colours;              // 0xAABBGGRR, linear
     std::vector<uint32_t> indices;              // counterclockwise from outside

@@ -214,6 +214,7 @@ void espDestroy(EspContext* context) {
 EspResult espTrim(EspContext* context) {
     return guarded(context, [&] {
         context->plants.reset();
+        context->parts = {};
         context->growth->trim();
         if (context->roofs) context->roofs->trim();
         context->renderer->trim(context->growth->view());

@@ -18,6 +18,7 @@
 #include "runtime/plugin/contents.hpp"
 #include "runtime/plugin/files.hpp"
 #include "runtime/plugin/id_table.hpp"
+#include "runtime/plugin/parts.hpp"
 #include "runtime/plugin/patterns.hpp"
 #include "runtime/plugin/surface_changes.hpp"
 #include "runtime/render/renderer.hpp"
@@ -114,6 +115,7 @@ struct EspContext {
     uint32_t pictureWidth = 0, pictureHeight = 0;
     uint64_t preparedFrame = 0;  // the host's, of the last espPrepare
     std::vector<std::byte> vertices, indices;  // of the last espMaterialise, until something grows
+    espalier::StandingParts parts;             // of the last espReadParts
 
     // An input of plants changed in a way that only a full growth answers.
     void changeWholly(espalier::graph::Node& input) noexcept {

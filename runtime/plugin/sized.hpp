@@ -29,6 +29,7 @@ void setDefaults(EspPassDef& def);
 void setDefaults(EspPassFormat& format);
 void setDefaults(EspLayerDef& def);
 void setDefaults(EspLook& look);
+void setDefaults(EspPartsDef& def);
 void setDefaults(EspSeedDef& def);
 void setDefaults(EspTownDef& def);
 

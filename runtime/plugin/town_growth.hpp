@@ -21,6 +21,17 @@ const LoadedGrammar* townGrammar(const EspContext& context);
 float fillOverTown(const EspContext& context, const std::string& name);
 // Gives roofs the town's layers, and adds to LoadedTown::changed the houses that have read what was painted since.
 void bindTownLayers(EspContext& context, RoofInputs& inputs);
+// What grids are cut by, of the town as it stands. Refers to `records` and to the context.
+struct TownRoofs {
+    TownRoofs(EspContext& context, RoofRecords& records);
+    TownRoofs(const TownRoofs&) = delete;
+    TownRoofs& operator=(const TownRoofs&) = delete;
+    bool stands(const RoofGrid& grid) const;  // else its house has grown anew since
+
+    const RoofRecords& records;
+    RoofLayer layers[kRoofLayers] = {};
+    RoofEnv env{};
+};
 // Adds the town's roofs to what espMaterialise gives: TriangleVertex, uint32_t.
 EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices, std::vector<std::byte>& indices);
 // The number by which the town's grammar knows the layer; kNoIndex.

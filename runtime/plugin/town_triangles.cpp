@@ -20,37 +20,43 @@ void append(std::vector<std::byte>& bytes, const T& value) {
 
 }  // namespace
 
-EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices, std::vector<std::byte>& indices) {
-    if (!context.town || !context.roofs || context.town->view.gridCount == 0) return ESP_OK;
-    if (!townGrammar(context)) return ESP_OK;  // destroyed: the roofs go with the next espUpdate
-    Result<RoofRecords> records = context.roofs->read();
-    if (!records) return failGpu(&context, records.failure());
+TownRoofs::TownRoofs(EspContext& context, RoofRecords& given) : records(given) {
     const std::vector<ContextInfo>& contexts = context.town->contexts;
-    RoofLayer layers[kRoofLayers] = {};
     for (size_t i = 0; i < std::min<size_t>(contexts.size(), kRoofLayers); ++i) {
         layers[i].fill = contexts[i].fill;
         const PlanLayer* layer = context.town->layers.find(contexts[i].name);
         if (layer) layers[i].texels.v = const_cast<float*>(layer->texels.data());
     }
-    RoofEnv env{};
-    env.grids.v = records->grids.data();
-    env.runs.v = records->runs.data();
-    env.regions.v = records->regions.data();
-    env.parts.v = records->parts.data();
-    env.planes.v = records->planes.data();
+    env.grids.v = given.grids.data();
+    env.runs.v = given.runs.data();
+    env.regions.v = given.regions.data();
+    env.parts.v = given.parts.data();
+    env.planes.v = given.planes.data();
     env.meshes.v = context.roofBounds.data();
     env.layers.v = layers;
-    env.plots.v = records->plots.data();
+    env.plots.v = given.plots.data();
     env.site = context.town->layers.site();
+}
+
+bool TownRoofs::stands(const RoofGrid& grid) const {
+    return records.plots[grid.house & 0xFFFFFFu].generation == grid.house >> 24;
+}
+
+EspResult materialiseTown(EspContext& context, std::vector<std::byte>& vertices, std::vector<std::byte>& indices) {
+    if (!context.town || !context.roofs || context.town->view.gridCount == 0) return ESP_OK;
+    if (!townGrammar(context)) return ESP_OK;  // destroyed: the roofs go with the next espUpdate
+    Result<RoofRecords> records = context.roofs->read();
+    if (!records) return failGpu(&context, records.failure());
+    const TownRoofs roofs(context, *records);
     const size_t plants = vertices.size() + indices.size();
     RoofTriangles part;
     for (const RoofGrid& grid : records->grids) {
-        if (records->plots[grid.house & 0xFFFFFFu].generation != grid.house >> 24) continue;
+        if (!roofs.stands(grid)) continue;
         part.positions.clear();
         part.normals.clear();
         part.colours.clear();
         part.indices.clear();
-        const bool all = appendGrid(env, grid, *context.roofMeshes, part, 2 * kMostBytes);
+        const bool all = appendGrid(roofs.env, grid, *context.roofMeshes, part, 2 * kMostBytes);
         if (!all || vertices.size() + indices.size() - plants + part.positions.size() * 16 + part.indices.size() * 4 >
                         kMostBytes)
             return fail(&context, ESP_OUT_OF_MEMORY, "espMaterialise: the town's triangles are more than 2 GiB");

@@ -42,6 +42,11 @@ const VariantRecord* PieceDraw::variantOf(const PatternPiece& piece) const {
     return &table.variants[table.kinds[kind].firstVariant];
 }
 
+const TerminalVariant* PieceDraw::meshOf(const PatternPiece& piece) const {
+    const VariantRecord* variant = variantOf(piece);
+    return variant ? &terminals_.data().variants[size_t(variant - terminals_.table().variants.data())] : nullptr;
+}
+
 Status PieceDraw::place(std::vector<PatternPiece> pieces) {
     // A piece stands twice where a level of detail takes over.
     for (Chosen* chosen : {&inView_, &casters_}) {

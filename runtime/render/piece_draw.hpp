@@ -24,6 +24,10 @@ class PieceDraw {
     // In place of all that stood.
     Status place(std::vector<PatternPiece> pieces);
     bool empty() const { return pieces_.empty(); }
+    const std::vector<PatternPiece>& pieces() const { return pieces_; }
+    const TerminalData& meshes() const { return terminals_.data(); }
+    // The variant of those meshes that a piece is drawn as; null: it is missing.
+    const TerminalVariant* meshOf(const PatternPiece& piece) const;
     uint64_t revision() const { return revision_; }      // another one whenever something else stands
     void bounds(glm::vec3& low, glm::vec3& high) const;  // of what stands; leaves them alone if nothing does
 

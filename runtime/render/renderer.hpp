@@ -78,6 +78,11 @@ class Renderer {
     // Counts of the last frame that has finished.
     RenderStats stats() const;
 
+    // What stems and leaves are drawn with.
+    const Terminals& terminals() const { return terminals_; }
+    // What patterns are drawn with, and where; null: there are none.
+    const PieceDraw* pieces() const { return pieces_.get(); }
+
     // Bound by itself, whatever bounds pictures bind growth in: triangles come in an order of their own.
     Result<EmittedTriangles> materialise(const EmitInputs& inputs) { return emit_.materialise(inputs); }
 
