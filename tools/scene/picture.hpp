@@ -53,6 +53,10 @@ bool encodeChannels(const std::string& path, std::span<const GreyPicture> channe
 // Writes one channel so, as writeText does (text_file.hpp).
 bool writeGrey(const std::string& path, const GreyPicture& picture, std::string& error);
 
+// A PNG's file in memory, of rows top to bottom, with alpha or without. path: for `error`. effort: 1, quick, to 9,
+// small.
+bool encodePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, bool alpha, int effort,
+               std::vector<uint8_t>& bytes, std::string& error);
 // Writes a PNG as writeText does (text_file.hpp).
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error);
 

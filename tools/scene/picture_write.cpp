@@ -72,15 +72,19 @@ bool writeGrey(const std::string& path, const GreyPicture& picture, std::string&
     return encodeChannels(path, {&picture, 1}, bytes, error) && writeText(path, asText(bytes), error);
 }
 
+bool encodePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, bool alpha, int effort,
+               std::vector<uint8_t>& out, std::string& error) {
+    OIIO::ImageSpec spec(int(width), int(height), alpha ? 4 : 3, OIIO::TypeDesc::UINT8);
+    spec["png:compressionLevel"] = effort;
+    if (alpha) spec["oiio:UnassociatedAlpha"] = 1;
+    return encode(path, "png", spec, out, error, [&](OIIO::ImageOutput& output) {
+        return output.write_image(OIIO::TypeDesc::UINT8, rgba, 4, OIIO::stride_t(width) * 4);
+    });
+}
+
 bool writePng(const std::string& path, const uint8_t* rgba, uint32_t width, uint32_t height, std::string& error) {
-    OIIO::ImageSpec spec(int(width), int(height), 3, OIIO::TypeDesc::UINT8);
-    spec["png:compressionLevel"] = 1;
     std::vector<uint8_t> bytes;
-    return encode(path, "png", spec, bytes, error,
-                  [&](OIIO::ImageOutput& output) {
-                      return output.write_image(OIIO::TypeDesc::UINT8, rgba, 4, OIIO::stride_t(width) * 4);
-                  }) &&
-           writeText(path, asText(bytes), error);
+    return encodePng(path, rgba, width, height, false, 1, bytes, error) && writeText(path, asText(bytes), error);
 }
 
 }  // namespace espalier::scene
