@@ -24,8 +24,9 @@ typedef enum EspPartKind {
 typedef struct EspPartsDef {
     ESP_STRUCT_SIZE(EspPartsDef);
     uint32_t kinds;              /* bits 1 << EspPartKind; default: all */
-    float stemError;             /* metres by which stems of the finest level may differ from their curves. 0: not at all,
-                                    as espMaterialise has them, 216 triangles from node to node; default 0.0005 */
+    float stemError;             /* by which stems of the finest level may differ from their curves, as a share of the
+                                    radius of the plant's thickest stem. 0: not at all, as espMaterialise has them, 216
+                                    triangles from node to node; default 0.2 */
     uint32_t stemLevels;         /* levels of detail of stems, 1 to 4, each with four times the error; default 3 */
 } EspPartsDef;
 ESP_API EspResult espDefaultPartsDef(EspPartsDef* out);

@@ -59,6 +59,7 @@ void showDialogues(Workspace& work, Session& session) {
         d.open = nullptr;
     }
     projectDialogues(work, session);
+    exportDialogue(work, session);
     runDialogues(work, session);
     layerDialogues(work, session);
     askElsewhere(work, session);

@@ -18,6 +18,8 @@ void fileMenu(Workspace& work, Session& session) {
     if (ImGui::MenuItem("Open ...", "Ctrl+O")) askToOpen();
     if (ImGui::MenuItem("Save", "Ctrl+S")) askToSave(work, session);
     if (ImGui::MenuItem("Save as ...", "Ctrl+Shift+S")) askToSave(work, session, true);
+    if (ImGui::MenuItem("Export ...")) askToExport(work);
+    toolTip("What grows, as glTF: for engines and Blender");
     ImGui::Separator();
     if (ImGui::MenuItem("Record a run ...", nullptr, false, !session.recording())) askToRecord();
     if (ImGui::MenuItem("End the recording", nullptr, false, session.recording())) session.stopRecording(work);
@@ -80,7 +82,8 @@ Hint hintOf(const Workspace& work, bool caught, bool flying) {
             break;
         case Tool::fields:
             text =
-                "Click: place an element   drag: with a direction   drag an element: move   drag its arrow: turn   Del: "
+                "Click: place an element   drag: with a direction   drag an element: move   drag its arrow: turn   "
+                "Del: "
                 "remove";
             break;
         case Tool::look:

@@ -27,6 +27,7 @@ void progressBar(const Background& background, float width);         // of what 
 // Ctrl+S and Ctrl+O: at once, or by a dialogue. True: it is being saved; else that is asked first.
 bool askToSave(Workspace& work, Session& session, bool elsewhere = false);
 void askToOpen(const std::string& refused = {}, const std::string& why = {});  // refused: what couldn't be opened
+void askToExport(const Workspace& work);
 void askToRecord();
 void askToReplay();
 // The end of the program, or another file to open: at once, or when the user has said what becomes of what isn't saved.

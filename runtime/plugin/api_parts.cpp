@@ -12,7 +12,7 @@ constexpr uint32_t kMostStemLevels = 4;
 
 void setDefaults(EspPartsDef& def) {
     def.kinds = ~0u;
-    def.stemError = .0005f;
+    def.stemError = .2f;
     def.stemLevels = 3;
 }
 

@@ -41,23 +41,23 @@ PartLevel levelOf(const TerminalData& data, const TerminalLod& lod, bool texture
 
 uint32_t PartsWriter::material(const TerminalData& data, uint32_t material, bool twoSided) {
     for (const Known& known : known_)
-        if (known.data == &data && known.material == material) return known.number;
-    const auto first = std::ranges::find(firstPicture_, &data, [](const auto& f) { return f.first; });
-    uint32_t base = uint32_t(out_.pictures.size());
-    if (first != firstPicture_.end()) {
-        base = first->second;
-    } else {
-        firstPicture_.emplace_back(&data, base);
-        out_.pictures.insert(out_.pictures.end(), data.pictures.begin(), data.pictures.end());
-    }
+        if (known.data == &data && known.of == material) return known.number;
     TerminalMaterial added = data.materials[material];
-    for (int* picture : {&added.baseColorPicture, &added.normalPicture})
-        if (*picture >= 0) *picture += int(base);
+    for (int* number : {&added.baseColorPicture, &added.normalPicture})
+        if (*number >= 0) *number = picture(data, *number);
     const uint32_t number = uint32_t(out_.materials.size());
     out_.materials.push_back(std::move(added));
     out_.twoSided.push_back(twoSided);
     known_.push_back({&data, material, number});
     return number;
+}
+
+int PartsWriter::picture(const TerminalData& data, int number) {
+    for (const Known& known : knownPictures_)
+        if (known.data == &data && known.of == uint32_t(number)) return int(known.number);
+    out_.pictures.push_back(data.pictures[size_t(number)]);
+    knownPictures_.push_back({&data, uint32_t(number), uint32_t(out_.pictures.size()) - 1});
+    return int(knownPictures_.back().number);
 }
 
 std::string PartsWriter::unlikeOthers(const std::string& name) const {

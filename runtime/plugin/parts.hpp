@@ -56,16 +56,16 @@ class PartsWriter {
     StandingParts finish();
 
   private:
+    int picture(const TerminalData& data, int number);
     std::string unlikeOthers(const std::string& name) const;
 
     EspPartsDef def_;
     StandingParts out_;
     struct Known {
         const TerminalData* data;
-        uint32_t material, number;
+        uint32_t of, number;
     };
-    std::vector<Known> known_;
-    std::vector<std::pair<const TerminalData*, uint32_t>> firstPicture_;
+    std::vector<Known> known_, knownPictures_;
 };
 
 // Gives all vertices a place in [0, 1] of their own, splitting those where sides meet: each piece that looks along one

@@ -14,7 +14,7 @@
 namespace espalier {
 namespace {
 
-constexpr float kFirstError = .0005f;  // metres, of the level after one without any
+constexpr float kFirstError = .2f;  // of the level after one without any
 
 // Where a node stands in its plant.
 struct NodePlace {
@@ -95,15 +95,18 @@ class PlantGatherer {
                                      out_.material(terminals_.data(), variant.lods.front().material, false));
             part.seed = {of.first < context_.grownSeeds.size() ? context_.grownSeeds[of.first] : 0};
             part.levels.resize(def.stemLevels);
+            float radius = 0;
+            for (const StemRun& run : runs) radius = std::max(radius, thickest(run));
             parallelFor(def.stemLevels, 1, [&, &runs = runs](size_t begin, size_t end) {
                 for (size_t level = begin; level < end; ++level)
-                    part.levels[level] = stemLevel(runs, errorOf(def.stemError, level), level > 0);
+                    part.levels[level] = stemLevel(runs, errorOf(def.stemError, radius, level), level > 0);
             });
         }
     }
-    static float errorOf(float finest, size_t level) {
-        if (level == 0) return finest;
-        return (finest > 0 ? 4 * finest : kFirstError) * std::exp2(2 * float(level - 1));
+    // metres: of a level, where the plant's thickest stem has this radius.
+    static float errorOf(float finest, float radius, size_t level) {
+        if (level == 0) return finest * radius;
+        return (finest > 0 ? 4 * finest : kFirstError) * radius * std::exp2(2 * float(level - 1));
     }
     void addRuns(uint32_t branch, std::map<std::pair<uint32_t, uint32_t>, std::vector<StemRun>>& plants) {
         const std::vector<uint32_t> nodes = plants_.nodesOf(branch);

@@ -9,19 +9,13 @@ namespace {
 
 constexpr float kTurn = 6.2831853f;
 constexpr size_t kMostSkipped = 48;    // rings, so that a tube keeps its curve where it twists
-constexpr float kLeastTogether = .8f;  // cosine of the twist from one kept ring to the next
+constexpr float kLeastTogether = .5f;  // cosine of the twist from one kept ring to the next
 
 uint32_t sidesFor(float radius, float error) {
     if (!(error > 0)) return kBarkSides;
     if (error >= radius / 2) return 3;
     const float sides = std::ceil(kTurn / 2 / std::acos(1 - error / radius));
     return std::clamp(uint32_t(sides), 3u, kBarkSides);
-}
-
-float thickest(const StemRun& run) {
-    float radius = 0;
-    for (const StemRing& r : run) radius = std::max(radius, r.ring.radius);
-    return radius;
 }
 
 // Whether the rings between two differ from a straight tube between them by no more than `error`.
@@ -73,7 +67,7 @@ class TubeWriter {
   private:
     // low, size: the strip's place in the second set of UVs.
     void tube(const StemRun& run, float radius, glm::vec2 low, glm::vec2 size) {
-        const uint32_t sides = sidesFor(radius, error_), across = sides + 1;
+        const uint32_t sides = sidesFor(radius, error_ / 2), across = sides + 1;
         // Pictures of bark repeat at powers of two of the girth, so that texels are about as long as wide.
         const float perMetre = std::exp2(-std::floor(std::log2(std::max(radius, 1e-6f)))) / kTurn;
         const float first = run.front().metres, length = std::max(run.back().metres - first, 1e-6f);
@@ -120,6 +114,12 @@ class TubeWriter {
 };
 
 }  // namespace
+
+float thickest(const StemRun& run) {
+    float radius = 0;
+    for (const StemRing& r : run) radius = std::max(radius, r.ring.radius);
+    return radius;
+}
 
 PartLevel stemLevel(const std::vector<StemRun>& runs, float error, bool thinOut) {
     return TubeWriter(runs, error, thinOut).write();

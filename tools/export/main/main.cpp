@@ -51,11 +51,12 @@ void addOptions(CLI::App& app, CommandLine& line) {
                    "or none")
         ->capture_default_str()
         ->check(CLI::IsMember({"_WIND", "COLOR_0", "none"}));
-    app.add_option("--stem-error", line.options.stemError,
-                   "metres by which stems may differ from their curves; 0: not at all, with 216 triangles for each "
-                   "node")
+    app.add_option(
+           "--stem-error", line.options.stemError,
+           "by which stems may differ from their curves, as a share of the radius of the plant's thickest; 0: not at "
+           "all, with 216 triangles for each node")
         ->capture_default_str()
-        ->check(CLI::Range(0.0f, 1.0f));
+        ->check(CLI::Range(0.0f, 10.0f));
     app.add_option("--grammar", line.request.grammar, "takes the place of the scene's first grammar");
     app.add_option("--layer", line.layers,
                    "NAME=FILE: a picture drawn in the model's UVs, or of a town's layer, seen from above")
