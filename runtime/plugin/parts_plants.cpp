@@ -130,12 +130,13 @@ class PlantGatherer {
         o.metres = spanLength(s.span);
         o.bits = s.tip ? 64u : 0u;
         const NodePlace &a = places_[from], &b = places_[to];
+        const float start = run.empty() ? s.arc0 : run.back().metres;
         for (uint32_t i = run.empty() ? 0 : 1; i < kBarkRings; ++i) {
             const float u = float(i) / float(kBarkRings - 1);
             StemRing ring;
             ring.ring = barkRing(o, s.normal0, s.normal1, i);
             if (s.tip) ring.ring.radius = tipRadius(o, i);
-            ring.metres = s.arc0 + o.metres * u;
+            ring.metres = start + o.metres * u;
             ring.wind = glm::mix(a.wind, b.wind, u);
             ring.age = glm::mix(ageOf(a), ageOf(b), u);
             run.push_back(ring);

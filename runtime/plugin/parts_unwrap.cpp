@@ -29,24 +29,20 @@ glm::vec2 flattened(glm::vec3 p, uint32_t facing) {
     return facing % 2 ? glm::vec2(-flat.x, flat.y) : flat;
 }
 
+// Which side of the line from a to b a point is on: above 0 inside, as triangles that are laid flat turn.
+double sideOf(glm::vec2 a, glm::vec2 b, glm::vec2 p) {
+    const glm::dvec2 side = glm::dvec2(b) - glm::dvec2(a), to = glm::dvec2(p) - glm::dvec2(a);
+    return side.x * to.y - side.y * to.x;
+}
+
 // Whether the insides of both meet: no side of either has the other beyond it.
 bool overlap(const Flat& a, const Flat& b) {
-    float extent = 0;
-    for (const glm::vec2& p : a) extent = std::max({extent, std::abs(p.x - a[0].x), std::abs(p.y - a[0].y)});
     for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)})
-        for (int i = 0; i < 3; ++i) {
-            const glm::vec2 from = (*one)[size_t(i)], side = (*one)[size_t((i + 1) % 3)] - from;
-            const glm::vec2 out(side.y, -side.x);
-            const float length = glm::length(out);
-            if (!(length > 0)) return false;
-            const float inner = glm::dot(out, (*one)[size_t((i + 2) % 3)] - from);
-            bool beyond = true;
-            for (const glm::vec2& p : *other) {
-                const float d = glm::dot(out, p - from) * (inner < 0 ? 1.0f : -1.0f);
-                beyond = beyond && d >= -1e-5f * extent * length;
-            }
-            if (beyond) return false;
-        }
+        for (size_t i = 0; i < 3; ++i)
+            if (std::ranges::all_of(*other, [&, &corners = *one](glm::vec2 p) {
+                    return sideOf(corners[i], corners[(i + 1) % 3], p) <= 0;
+                }))
+                return false;
     return true;
 }
 

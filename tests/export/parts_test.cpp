@@ -1,6 +1,7 @@
 // What stands, as parts, beside what espMaterialise says of the same.
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "tests/export/scene_parts.hpp"
@@ -43,10 +44,22 @@ bool overlap(const Flat& a, const Flat& b) {
     return true;
 }
 
+// What is thinner covers nothing: that is what single precision can tell apart in the unit square.
+constexpr double kLeastThickness = 4e-7;
+double thicknessOf(const Flat& f) {
+    double longest = 0;
+    for (int i = 0; i < 3; ++i)
+        longest = std::max(longest, std::hypot(double(f.u[(i + 1) % 3]) - f.u[i], double(f.v[(i + 1) % 3]) - f.v[i]));
+    const double area =
+        (double(f.u[1]) - f.u[0]) * (double(f.v[2]) - f.v[0]) - (double(f.v[1]) - f.v[0]) * (double(f.u[2]) - f.u[0]);
+    return longest > 0 ? std::abs(area) / longest : 0;
+}
+
 // Pairs of triangles that overlap in the second set of UVs: each with all that share some of its rows.
 size_t overlaps(const EspPartLevel& level) {
     std::vector<Flat> all;
-    for (uint32_t t = 0; 3 * t < level.indexCount; ++t) all.push_back(flatOf(level, t));
+    for (uint32_t t = 0; 3 * t < level.indexCount; ++t)
+        if (const Flat f = flatOf(level, t); thicknessOf(f) > kLeastThickness) all.push_back(f);
     std::ranges::sort(all, {}, &Flat::low);
     size_t found = 0;
     for (size_t i = 0; i < all.size(); ++i)
@@ -67,9 +80,9 @@ uint64_t materialised(EspContext* context) {
 }  // namespace
 
 TEST_CASE("parts at full detail have as many triangles as espMaterialise writes") {
-    for (const char* name : {"guided.json", "hamlet.json"}) {
+    for (const std::string name : {"guided.json", "hamlet.json"}) {
         CAPTURE(name);
-        GrownScene scene(name);
+        GrownScene scene(name.c_str());
         const EspPartsInfo info = scene.parts(0, 1);
         CHECK(info.triangles > 100'000);
         CHECK(info.triangles == materialised(scene.context));
@@ -99,8 +112,8 @@ TEST_CASE("second UVs lie in the unit square and nowhere on each other") {
                 const bool within = std::all_of(level.vertices, level.vertices + level.vertexCount, [](auto& v) {
                     return v.uv2[0] >= 0 && v.uv2[0] <= 1 && v.uv2[1] >= 0 && v.uv2[1] <= 1;
                 });
-                CAPTURE(name);
-                CAPTURE(part.name);
+                const std::string of = std::string(name) + " " + part.name;
+                CAPTURE(of);
                 CAPTURE(number);
                 CHECK(within);
                 CHECK(overlaps(level) == 0);
@@ -126,7 +139,8 @@ TEST_CASE("coarser levels have fewer triangles, and stems move the more the near
         CHECK(least->wind == 0);
         CHECK(least->age == 1);
         CHECK(most->wind == 1);
-        CHECK(most->age < .5f);
+        const auto byAge = [](const EspPartVertex& a, const EspPartVertex& b) { return a.age < b.age; };
+        CHECK(std::min_element(finest.vertices, finest.vertices + finest.vertexCount, byAge)->age < .05f);
     }
     EspStats stats;
     REQUIRE(espReadStats(scene.context, &stats) == ESP_OK);
