@@ -32,7 +32,7 @@ void exportTo(Workspace& work, Session& session, const std::string& file) {
 
 void askToExport(const Workspace& work) {
     PathText& file = dialogues().grown;
-    put(file, freeName(file[0] ? file.data() : work.scene().name + ".glb", ".glb"));
+    put(file, freeName(file[0] ? file.data() : fs::path(work.scene().name).stem().string() + ".glb", ".glb"));
     ask("Export what grows");
 }
 

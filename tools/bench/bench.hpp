@@ -64,6 +64,7 @@ void fieldCases(Bench& bench);
 void patternCases(Bench& bench);
 void editCases(Bench& bench);
 void emitCases(Bench& bench);
+void exportCases(Bench& bench);
 void frameCases(Bench& bench);
 void placeCases(Bench& bench);
 void bakeCases(Bench& bench);

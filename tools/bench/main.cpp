@@ -44,6 +44,7 @@ int measureAsAsked(int argc, char** argv) {
     patternCases(bench);
     editCases(bench);
     emitCases(bench);
+    exportCases(bench);
     frameCases(bench);
     placeCases(bench);
     bakeCases(bench);

@@ -75,7 +75,7 @@ bool MeshWriter::addPictures(std::string& error) {
     for (size_t i = 0; i < used.size(); ++i) {
         const ExportPicture& picture = gathered_.pictures[i];
         std::vector<uint8_t> bytes;
-        if (!scene::encodePng("a picture of a material", picture.rgba.data(), picture.width, picture.height, cut[i], 6,
+        if (!scene::encodePng("a picture of a material", picture.rgba.data(), picture.width, picture.height, cut[i], 4,
                               bytes, error))
             return false;
         const size_t view = file_.view(bytes.data(), bytes.size(), GltfFile::kOther);
