@@ -1,7 +1,10 @@
 // espalier-export as a user runs it; its files as tinygltf, gltf-validator and assimp read them.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstring>
 #include <functional>
+#include <nlohmann/json.hpp>
 
 #include "tests/tools/program.hpp"
 // It is read only, and none of its pictures.
@@ -21,6 +24,15 @@ tinygltf::Model read(const std::string& file) {
     std::string error, warning;
     REQUIRE_MESSAGE(reader.LoadBinaryFromFile(&model, &error, &warning, file), error);
     return model;
+}
+
+nlohmann::json objectsOf(const std::string& file) {
+    std::ifstream in(file, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+    uint32_t size = 0;
+    REQUIRE(bytes.size() > 20);
+    std::memcpy(&size, bytes.data() + 12, sizeof size);
+    return nlohmann::json::parse(bytes.substr(20, size));
 }
 
 size_t trianglesOf(const tinygltf::Model& model, const tinygltf::Mesh& mesh) {
@@ -104,13 +116,51 @@ TEST_CASE("exported files show the triangles that they are said to, with shared 
     }
 }
 
+TEST_CASE("collision meshes come besides, coarser and without materials") {
+    const Folder folder;
+    size_t said = 0, collision = 0;
+    const tinygltf::Model model = read(exported(folder, "hamlet.json", "--collision", said));
+    for (const tinygltf::Mesh& mesh : model.meshes)
+        if (contains(mesh.name, "_collision")) {
+            collision += trianglesOf(model, mesh);
+            CHECK(mesh.primitives.front().material < 0);
+        }
+    CHECK(collision > 1000);
+    CHECK(collision < said);
+    CHECK(trianglesShown(model) == said + collision);
+}
+
+// tinygltf reads nothing that Draco has packed: so the objects alone.
+TEST_CASE("surfaces come besides, with their materials and where they stand") {
+    const Folder folder;
+    size_t said = 0;
+    const nlohmann::json before = objectsOf(exported(folder, "patterns.json", "", said));
+    const nlohmann::json after = objectsOf(exported(folder, "patterns.json", "--surfaces", said));
+    CHECK(after["materials"].size() == before["materials"].size() + 3);
+    CHECK(after["meshes"].size() == before["meshes"].size() + 3);
+    CHECK(after["extensionsUsed"] == nlohmann::json{"KHR_draco_mesh_compression"});
+    const auto found = std::find_if(after["nodes"].begin(), after["nodes"].end(),
+                                    [](const nlohmann::json& node) { return node.value("name", "") == "surfaces"; });
+    REQUIRE(found != after["nodes"].end());
+    CHECK(found->at("children").size() == 3);
+    size_t moved = 0;
+    for (const size_t child : found->at("children")) {
+        const nlohmann::json& node = after["nodes"].at(child);
+        moved += node.contains("translation") ? 1 : 0;
+        const nlohmann::json& primitive = after["meshes"].at(node.at("mesh").get<size_t>())["primitives"][0];
+        const size_t packed = primitive["extensions"]["KHR_draco_mesh_compression"]["bufferView"];
+        CHECK(after["bufferViews"].at(packed)["byteLength"] > 1000);
+    }
+    CHECK(moved >= 2);
+}
+
 TEST_CASE("the validator finds no error") {
     if (!validatorThere()) {
         MESSAGE("skipped: there is no gltf-validator, which npm would get");
         return;
     }
     const Folder folder;
-    for (const char* options : {"--only ivy", "--only ivy --instancing --lods --wind COLOR_0"}) {
+    for (const char* options : {"--only ivy --collision --surfaces", "--only ivy --instancing --lods --wind COLOR_0"}) {
         CAPTURE(options);
         size_t said = 0;
         const std::string file = exported(folder, "guided.json", options, said);

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <map>
 
+#include "tools/export/collision.hpp"
 #include "tools/export/colours.hpp"
 #include "tools/export/export.hpp"
 #include "tools/export/meshes.hpp"
+#include "tools/export/placing.hpp"
+#include "tools/export/surfaces.hpp"
 
 namespace espalier::exporting {
 namespace {
@@ -15,40 +17,6 @@ namespace {
 constexpr size_t kMostColours = 12, kMostTileColours = 64;  // materials of one part
 constexpr size_t kStep = 4096;                              // instances from one look at the progress to the next
 constexpr float kPicturePixels = 1080;                      // height of the picture that levels are chosen for
-
-// A place as glTF has it.
-struct Placing {
-    glm::vec3 move, scale;
-    glm::quat turn;
-};
-
-Placing placingOf(const EspTransform& t) {
-    Placing out;
-    glm::mat3 axes;
-    for (int column = 0; column < 3; ++column) {
-        for (int row = 0; row < 3; ++row) axes[column][row] = t.rows[row][column];
-        out.scale[column] = std::max(glm::length(axes[column]), 1e-12f);
-        axes[column] /= out.scale[column];
-    }
-    if (glm::determinant(axes) < 0) axes[0] = -axes[0], out.scale.x = -out.scale.x;
-    out.turn = glm::normalize(glm::quat_cast(axes));
-    out.move = {t.rows[0][3], t.rows[1][3], t.rows[2][3]};
-    return out;
-}
-
-bool isIdentity(const EspTransform& t) {
-    const EspTransform none = espIdentity();
-    return std::equal(&t.rows[0][0], &t.rows[0][0] + 12, &none.rows[0][0]);
-}
-
-std::string textOf(const Placing& p) {
-    std::string text;
-    appendNumbers(text, "translation", &p.move.x, 3, 5);
-    const float turn[] = {p.turn.x, p.turn.y, p.turn.z, p.turn.w};
-    appendNumbers(text, "rotation", turn, 4, 5);
-    appendNumbers(text, "scale", &p.scale.x, 3, 7);
-    return text;
-}
 
 // What belongs together, under a name.
 struct Group {
@@ -70,6 +38,11 @@ class Encoder {
             if (!addPart(part)) return false;
         std::vector<size_t> roots;
         for (auto& [kind, groups] : groups_) roots.push_back(closeGroups(kind, groups));
+        if (options_.collision) roots.push_back(nodeOver("collision", addCollision(gathered_, file_)));
+        if (std::vector<size_t> nodes; !gathered_.surfaces.empty()) {
+            if (!addSurfaces(gathered_.surfaces, file_, nodes, error)) return false;
+            roots.push_back(nodeOver("surfaces", nodes));
+        }
         bytes = file_.finish(roots, "espalier");
         if (bytes.empty()) error = "it is more than a binary glTF can hold (4 GiB)";
         written_.nodes = file_.nodeCount();
@@ -106,18 +79,15 @@ class Encoder {
         return groupOf("patterns", 0, "pieces");
     }
     size_t closeGroups(const std::string& kind, const std::map<uint32_t, Group>& groups) {
-        std::string children;
-        for (const auto& [owner, group] : groups) {
-            std::string text;
-            appendText(text, "name", group.name);
-            std::string list;
-            for (size_t child : group.children) list += (list.empty() ? "" : ",") + std::to_string(child);
-            if (!list.empty()) text += ",\"children\":[" + list + "]";
-            children += (children.empty() ? "" : ",") + std::to_string(file_.node(text));
-        }
-        std::string text;
-        appendText(text, "name", kind);
-        return file_.node(text + ",\"children\":[" + children + "]");
+        std::vector<size_t> children;
+        for (const auto& [owner, group] : groups) children.push_back(nodeOver(group.name, group.children));
+        return nodeOver(kind, children);
+    }
+    size_t nodeOver(const std::string& name, const std::vector<size_t>& children) {
+        std::string text, list;
+        appendText(text, "name", name);
+        for (size_t node : children) list += (list.empty() ? "" : ",") + std::to_string(node);
+        return file_.node(list.empty() ? text : text + ",\"children\":[" + list + "]");
     }
 
     bool addPart(const ExportPart& part) {
@@ -144,7 +114,7 @@ class Encoder {
         for (uint32_t i : group.instances) {
             if (done_++ % kStep == 0 && !goOn_(float(double(done_) / double(total_)))) return false;
             const EspPartInstance& instance = part.instances[i];
-            const std::string place = isIdentity(instance.place) ? "" : textOf(placingOf(instance.place));
+            const std::string place = placeText(instance.place);
             groupOf(part, &instance).children.push_back(addLevels(part, meshes, name, place));
         }
         return true;

@@ -22,6 +22,7 @@ struct Options {
     bool ivy = true, roofs = true, patterns = true;
     bool instancing = false;  // EXT_mesh_gpu_instancing in place of a node for each leaf, tile and piece
     bool lods = false;        // coarser levels too, as MSFT_lod
+    bool collision = false;   // meshes of what is solid, too
     WindChannel wind = WindChannel::own;
     float stemError = esp::defaults<EspPartsDef>().stemError;
 };
@@ -45,12 +46,19 @@ struct ExportPicture {
     uint32_t width = 0, height = 0;
     std::vector<uint8_t> rgba;
 };
+// What espalier-bake wrote, and where it stands.
+struct ExportSurface {
+    std::string name;   // for messages
+    std::string bytes;  // of the file
+    EspTransform place{};
+};
 struct Gathered {
     std::vector<ExportPart> parts;
     std::vector<EspPartMaterial> materials;
     std::vector<std::string> materialNames;
     std::vector<ExportPicture> pictures;
-    uint64_t triangles = 0;  // of the finest level
+    std::vector<ExportSurface> surfaces;  // that are to be in the file, too; gather() leaves it alone
+    uint64_t triangles = 0;               // of the finest level
 };
 
 struct Written {

@@ -53,9 +53,10 @@ bool gather(EspContext* context, const Options& options, Gathered& out, std::str
     if (options.roofs) def.kinds |= 1u << ESP_PART_TILE | 1u << ESP_PART_HOUSE;
     if (options.patterns) def.kinds |= 1u << ESP_PART_PIECE;
     def.stemError = options.stemError;
-    if (!options.lods) def.stemLevels = 1;
+    const bool levels = options.lods || options.collision;
+    if (!levels) def.stemLevels = 1;
     EspPartsInfo info;
-    if (espReadParts(context, &def, &info) != ESP_OK || !copyAll(context, info, options.lods, out)) {
+    if (espReadParts(context, &def, &info) != ESP_OK || !copyAll(context, info, levels, out)) {
         error = espLastError(context);
         return false;
     }

@@ -1,6 +1,7 @@
 // In: elements and objects. Out: the container of binary glTF (glTF 2.0, §4.4).
 #include "tools/export/gltf_file.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -32,6 +33,16 @@ size_t GltfFile::accessor(const void* bytes, size_t size, size_t count, int comp
     return add("accessors", std::move(object));
 }
 
+size_t GltfFile::points(const std::vector<std::array<float, 3>>& points) {
+    std::array<float, 3> low = points.front(), high = low;
+    for (const auto& p : points)
+        for (size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
+    const size_t number = accessor(points, kFloat, "VEC3", false, kVertices);
+    json_["accessors"][number]["min"] = low;
+    json_["accessors"][number]["max"] = high;
+    return number;
+}
+
 size_t GltfFile::add(const char* list, Json object) {
     json_[list].push_back(std::move(object));
     return json_[list].size() - 1;
@@ -45,7 +56,7 @@ size_t GltfFile::node(const std::string& text) {
     return nodeCount_++;
 }
 
-void GltfFile::use(const char* extension, bool required) {
+void GltfFile::use(const std::string& extension, bool required) {
     used_.insert(extension);
     if (required) required_.insert(extension);
 }

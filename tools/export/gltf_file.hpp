@@ -2,6 +2,7 @@
 
 // A binary glTF while it is made: buffers, accessors, and nodes, of which there may be a great many.
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -23,6 +24,8 @@ class GltfFile {
         return accessor(elements.data(), elements.size() * sizeof(T), elements.size(), component, type, normalised,
                         target);
     }
+    // Positions of vertices, with the bounds that glTF asks for; at least one.
+    size_t points(const std::vector<std::array<float, 3>>& points);
     size_t view(const void* bytes, size_t size, int target);
     // Adds an object to the list of this name; its number.
     size_t add(const char* list, Json object);
@@ -31,7 +34,7 @@ class GltfFile {
     size_t node(const std::string& text);
     size_t nodeCount() const { return nodeCount_; }
     // Whoever reads the file has to know it, or without `required` may.
-    void use(const char* extension, bool required);
+    void use(const std::string& extension, bool required);
 
     Json& json() { return json_; }
     // The whole container; empty: it would be larger than a .glb can be, 4 GiB.

@@ -29,20 +29,6 @@ bool isColoured(const ExportPart::Level& level) {
     });
 }
 
-size_t positions(GltfFile& file, const ExportPart::Level& level) {
-    using Point = std::array<float, 3>;
-    const auto points = eachVertex<Point>(level, [](const EspPartVertex& v) {
-        return Point{v.position[0], v.position[1], v.position[2]};
-    });
-    Point low = points.front(), high = low;
-    for (const Point& p : points)
-        for (size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]), high[i] = std::max(high[i], p[i]);
-    const size_t accessor = file.accessor(points, GltfFile::kFloat, "VEC3", false, GltfFile::kVertices);
-    file.json()["accessors"][accessor]["min"] = low;
-    file.json()["accessors"][accessor]["max"] = high;
-    return accessor;
-}
-
 size_t indices(GltfFile& file, const ExportPart::Level& level) {
     if (level.vertices.size() > 65535)
         return file.accessor(level.indices, GltfFile::kUint, "SCALAR", false, GltfFile::kIndices);
@@ -90,12 +76,14 @@ const Json& MeshWriter::primitive(const ExportPart& part, size_t number) {
     if (!added) return known->second;
     const ExportPart::Level& level = part.levels[number];
     using Pair = std::array<float, 2>;
-    using Normal = std::array<float, 3>;
+    using Triple = std::array<float, 3>;
     Json attributes;
-    attributes["POSITION"] = positions(file_, level);
-    attributes["NORMAL"] = file_.accessor(eachVertex<Normal>(level,
+    attributes["POSITION"] = file_.points(eachVertex<Triple>(level, [](const EspPartVertex& v) {
+        return Triple{v.position[0], v.position[1], v.position[2]};
+    }));
+    attributes["NORMAL"] = file_.accessor(eachVertex<Triple>(level,
                                                              [](const EspPartVertex& v) {
-                                                                 return Normal{v.normal[0], v.normal[1], v.normal[2]};
+                                                                 return Triple{v.normal[0], v.normal[1], v.normal[2]};
                                                              }),
                                           GltfFile::kFloat, "VEC3", false, GltfFile::kVertices);
     attributes["TEXCOORD_0"] = file_.accessor(eachVertex<Pair>(level,
@@ -143,7 +131,7 @@ size_t MeshWriter::material(uint32_t number, const std::array<float, 3>& colour)
 std::vector<size_t> MeshWriter::meshes(const ExportPart& part, const std::array<float, 3>& colour,
                                        const std::string& name) {
     std::vector<size_t> out;
-    for (size_t level = 0; level < part.levels.size(); ++level) {
+    for (size_t level = 0; level < (options_.lods ? part.levels.size() : 1); ++level) {
         Json shown = primitive(part, level);
         shown["material"] = material(part.material, colour);
         out.push_back(file_.add("meshes", {{"name", name + "_LOD" + std::to_string(level)},

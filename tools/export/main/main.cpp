@@ -25,7 +25,7 @@ struct CommandLine {
     std::string out, cache = scene::cacheFolder(), wind = "_WIND";
     std::vector<std::string> only, layers;
     exporting::Options options;
-    bool quiet = false;
+    bool quiet = false, surfaces = false;
 };
 
 int fail(const std::string& message) {
@@ -46,6 +46,9 @@ void addOptions(CLI::App& app, CommandLine& line) {
                  "leaves, tiles and pieces by EXT_mesh_gpu_instancing in place of a node each: smaller, and not "
                  "read by every importer");
     app.add_flag("--lods", line.options.lods, "coarser levels of detail too, as MSFT_lod");
+    app.add_flag("--collision", line.options.collision,
+                 "also meshes to collide with, of stems, houses and pieces, below a node of this name");
+    app.add_flag("--surfaces", line.surfaces, "also the models that it grows on, packed by Draco as their files are");
     app.add_option("--wind", line.wind,
                    "the attribute of stems and leaves that tells how they move and how old they are: _WIND, COLOR_0 "
                    "or none")
@@ -94,6 +97,20 @@ std::unique_ptr<EspContext, void (*)(EspContext*)> makeContext(const CommandLine
     return {made, espDestroy};
 }
 
+bool readSurfaces(const scene::Scene& scene, Gathered& gathered, std::string& error) {
+    for (const scene::LoadedSurface& surface : scene.surfaces) {
+        if (!surface.drawn) continue;
+        exporting::ExportSurface& out = gathered.surfaces.emplace_back();
+        out.name = surface.file;
+        out.place = surface.placing.transform();
+        if (surface.kept ? !surface.kept->read(out.bytes) : !scene::readText(surface.file, out.bytes, error)) {
+            if (error.empty()) error = surface.file + ": can't be read any more as it was when the scene was opened";
+            return false;
+        }
+    }
+    return true;
+}
+
 int run(CommandLine line) {
     ProgressLine progress(line.quiet);
     const auto context = makeContext(line);
@@ -108,6 +125,7 @@ int run(CommandLine line) {
     Gathered gathered;
     if (!exporting::gather(context.get(), line.options, gathered, error))
         return progress.clear(), fail(line.request.file + ": " + error);
+    if (line.surfaces && !readSurfaces(document.scene(), gathered, error)) return progress.clear(), fail(error);
     std::string bytes;
     Written written;
     const auto goOn = [&](float share) { return progress.at("encoding", share), true; };
