@@ -141,7 +141,7 @@ TEST_CASE("who watches stops stages, but none that has to be brought to its end"
     StageList list = waves.list();
     CHECK(!HostRunner(1).run(list, &watch));
     CHECK(waves.turned == 0);
-    list[0].watched = false;
+    for (Stage& stage : list) stage.watched = false;
     PassTimes times;
     CHECK(HostRunner(1).run(list, &watch, &times));
     CHECK(waves.turned == 2);
