@@ -142,7 +142,7 @@ struct Film {
         pass.viewport = {0, 0, float(size.width), float(size.height), 0, 1};
         const Camera& camera = inputs.camera;
         pass.view = glm::lookAtRH(camera.eye, camera.target, camera.up);
-        pass.projection = glm::infinitePerspectiveRH_ZO(camera.fovY, float(size.width) / float(size.height), 0.1f);
+        pass.projection = glm::perspectiveRH_ZO(camera.fovY, float(size.width) / float(size.height), 0.1f, 1000.0f);
         pass.projection[1][1] *= -1;
         std::vector<double> times;
         for (int frame = -3; frame < 100; ++frame) {
