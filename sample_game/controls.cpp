@@ -211,8 +211,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
 }
 
 bool Controls::toolBusy() const {
-    return brush_.painting() || brush_.sizing() || seeds_.dragging() || houses_.dragging() ||
-           fields_.dragging();
+    return brush_.painting() || brush_.sizing() || seeds_.dragging() || houses_.dragging() || fields_.dragging();
 }
 
 bool Controls::panelTakes(const PointerEvent& event) {

@@ -41,8 +41,7 @@ class Front {
             offer(mesh_.to(h), {length(h), mesh_.angle[h]});
             // At a border one edge more arrives than leaves.
             const uint32_t before = FieldMesh::previous(h);
-            if (mesh_.twin[before] == kNoIndex)
-                offer(mesh_.from(before), {length(before), mesh_.angle[h] + tipOf(h)});
+            if (mesh_.twin[before] == kNoIndex) offer(mesh_.from(before), {length(before), mesh_.angle[h] + tipOf(h)});
         });
         while (!open_.empty()) {
             const auto [distance, v] = open_.top();
@@ -66,7 +65,9 @@ class Front {
             h = mesh_.twin[FieldMesh::previous(h)];
         } while (h != kNoIndex && h != mesh_.first[v]);
     }
-    double length(uint32_t h) const { return glm::length(mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)]); }
+    double length(uint32_t h) const {
+        return glm::length(mesh_.positions[mesh_.to(h)] - mesh_.positions[mesh_.from(h)]);
+    }
     double tipOf(uint32_t h) const {
         const double a = length(h), b = length(FieldMesh::previous(h)), c = length(FieldMesh::next(h));
         return std::acos(std::clamp((a * a + b * b - c * c) / (2 * a * b), -1.0, 1.0));

@@ -37,7 +37,7 @@ class CodeGenerator {
     Value uniform(Node node);
 
     bool roofs = false, patterns = false;  // to be said before anything is made
-    std::string failure;  // the first that went wrong in the uniform code, or empty
+    std::string failure;                   // the first that went wrong in the uniform code, or empty
     std::vector<CodeWord> code;
     std::vector<std::pair<uint32_t, uint32_t>> codePatches;  // code word, uniform
     std::vector<CodeWord> uniformCode;

@@ -97,9 +97,9 @@ void Expressions::declareField(const FieldDeclaration& f) {
     } else if (f.kind == "curvature") {
         info.curvature = true;
     } else if (f.kind != "tensor") {
-        reporter_.error(f.place, f.name,
-                        "a field is a tensor, a vector, a cross, a symmetry(N) or the surface's curvature, not '" +
-                            f.kind + "'");
+        reporter_.error(
+            f.place, f.name,
+            "a field is a tensor, a vector, a cross, a symmetry(N) or the surface's curvature, not '" + f.kind + "'");
     }
     if (fields.size() == kMaxFields)
         reporter_.error(f.place, f.name, "too many fields: 4 are the most");

@@ -135,7 +135,8 @@ std::optional<Node> Expressions::fieldQuery(const std::string& base, const std::
     if (quantity == kNoIndex) {
         const std::vector<std::string> known = queryNames();
         const std::string hint = didYouMean(part, known);
-        return fail(place, env, "a field is asked for " + base + ".value1, .value2, .Xangle1, .Xangle2 or .sure" + hint);
+        return fail(place, env,
+                    "a field is asked for " + base + ".value1, .value2, .Xangle1, .Xangle2 or .sure" + hint);
     }
     const uint32_t query = uint32_t(field - fields.begin()) | quantity << 8;
     auto known = std::ranges::find(queries, query);

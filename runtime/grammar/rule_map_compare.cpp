@@ -111,8 +111,8 @@ bool RuleMap::growsAs(const RuleMap& other) const {
         return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
     };
     const auto sameSection = [](Section a, Section b) { return a.offset == b.offset && a.count == b.count; };
-    return startSymbol_ == other.startSymbol_ && kind_ == other.kind_ && std::ranges::equal(fields_, other.fields_, sameField) &&
-            widthUniform_ == other.widthUniform_ &&
+    return startSymbol_ == other.startSymbol_ && kind_ == other.kind_ &&
+           std::ranges::equal(fields_, other.fields_, sameField) && widthUniform_ == other.widthUniform_ &&
            width_ == other.width_ && std::ranges::equal(params_, other.params_, sameParam) &&
            std::ranges::equal(contexts_, other.contexts_, sameContext) &&
            std::ranges::equal(symbols_, other.symbols_, sameSymbol) &&

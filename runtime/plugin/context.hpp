@@ -113,7 +113,7 @@ struct EspContext {
 
     bool hasPicture = false;
     uint32_t pictureWidth = 0, pictureHeight = 0;
-    uint64_t preparedFrame = 0;  // the host's, of the last espPrepare
+    uint64_t preparedFrame = 0;                // the host's, of the last espPrepare
     std::vector<std::byte> vertices, indices;  // of the last espMaterialise, until something grows
     espalier::StandingParts parts;             // of the last espReadParts
 

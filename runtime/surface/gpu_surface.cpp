@@ -162,10 +162,9 @@ Status GpuSurface::readForFields(Device& device, SurfaceData& out) const {
     const size_t texels = size_t(finest.size) * finest.size;
     out.levels.resize(1);
     out.levels[0].size = finest.size;
-    return allDone(
-        {assign(out.triangles, readArray<TrianglePlane>(device, data_, ref_.triangles, ref_.triangleCount)),
-         assign(out.levels[0].texels, readArray<Texel>(device, data_, finest.texels, texels)),
-         assign(out.levels[0].aux, readArray<TexelAux>(device, data_, finest.aux, texels))});
+    return allDone({assign(out.triangles, readArray<TrianglePlane>(device, data_, ref_.triangles, ref_.triangleCount)),
+                    assign(out.levels[0].texels, readArray<Texel>(device, data_, finest.texels, texels)),
+                    assign(out.levels[0].aux, readArray<TexelAux>(device, data_, finest.aux, texels))});
 }
 
 Status GpuSurface::readBack(Device& device, SurfaceData& out) const {

@@ -256,7 +256,8 @@ TEST_CASE("angleTo and facing: directions, and what rules read") {
     const uint32_t inputs = rule.startInputs | kInputSlope | kInputHeight;
     const Place place{vec3(0, 3, 0), vec3(0, 0, 1), vec3(1, 0, 0), vec2(0), 0, 0};
     Machine machine = machineFor({});
-    giveInputs(MACHINE env.surfaces, env.layers, env.grammars, frameOf(env.surfaces, 0, inputs), 0, inputs, 0, place, 0, 0, 0);
+    giveInputs(MACHINE env.surfaces, env.layers, env.grammars, frameOf(env.surfaces, 0, inputs), 0, inputs, 0, place, 0,
+               0, 0);
     CHECK(SLOT(kSlotAngle) == doctest::Approx(kPi / 2).epsilon(1e-4));
     CHECK(SLOT(kSlotSlope) == doctest::Approx(kPi / 2).epsilon(1e-4));
     CHECK(SLOT(kSlotHeight) == 2.0f);

@@ -1,8 +1,8 @@
 #pragma once
 
-// Pieces that patterns are made of. Each fills the box of a scope of size 1: x and z from -0.5 to 0.5, y from 0 up, where
-// y leads off the surface and x is the scope's own x axis; bodies that are the same all around have their middle at the
-// origin. Texture coordinate u is how bright the mesh leaves its colour.
+// Pieces that patterns are made of. Each fills the box of a scope of size 1: x and z from -0.5 to 0.5, y from 0 up,
+// where y leads off the surface and x is the scope's own x axis; bodies that are the same all around have their middle
+// at the origin. Texture coordinate u is how bright the mesh leaves its colour.
 
 #include "tools/content/model.hpp"
 

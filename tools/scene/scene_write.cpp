@@ -60,9 +60,8 @@ ordered_json fieldJson(const SceneField& field) {
     ordered_json json{{"drift", shortestList(field.drift)}, {"lean", shortest(field.lean)}};
     if (field.exact) json["exact"] = true;
     for (const SceneElement& e : field.elements) {
-        ordered_json& out = json["elements"].emplace_back(ordered_json{{"kind", e.kind},
-                                                                       {"position", shortestList(e.position)},
-                                                                       {"direction", shortestList(e.direction)}});
+        ordered_json& out = json["elements"].emplace_back(ordered_json{
+            {"kind", e.kind}, {"position", shortestList(e.position)}, {"direction", shortestList(e.direction)}});
         if (e.radius > 0) out["radius"] = shortest(e.radius);
     }
     return json;
@@ -107,8 +106,7 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     for (const SceneSurface& surface : file.surfaces) {
         json["surfaces"].push_back(placedJson(beside(surface.file), surface.placing));
         if (!surface.drawn) json["surfaces"].back()["drawn"] = false;
-        for (const SceneField& field : surface.fields)
-            json["surfaces"].back()["fields"][field.name] = fieldJson(field);
+        for (const SceneField& field : surface.fields) json["surfaces"].back()["fields"][field.name] = fieldJson(field);
     }
     if (file.town) json["town"] = townJson(*file.town, beside(file.town->file));
     if (!file.site.empty()) json["site"] = beside(file.site);
