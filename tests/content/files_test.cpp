@@ -33,7 +33,8 @@ struct Folder {
 TEST_CASE("two runs write the same bytes, and the binaries' frames are right") {
     Folder first("espalier_content_1"), second("espalier_content_2");
     for (const Folder* f : {&first, &second}) REQUIRE(content::generate({f->path.string(), "", 256}));
-    for (const char* name : {"ruin.glb", "mask.png", "ivy.png", "terminals.glb", "roofs.glb", "props.glb"}) {
+    for (const char* name : {"ruin.glb", "mask.png", "ivy.png", "terminals.glb", "roofs.glb", "props.glb", "pieces.glb",
+                             "cuirass.glb", "vase.glb", "knot.glb"}) {
         CAPTURE(name);
         std::vector<char> a = bytesOf(first.path / name);
         CHECK(a.size() > 1000);
@@ -46,7 +47,7 @@ TEST_CASE("two runs write the same bytes, and the binaries' frames are right") {
             CHECK(head[2] == a.size());
         }
     }
-    CHECK(std::distance(std::filesystem::directory_iterator(first.path), std::filesystem::directory_iterator()) == 6);
+    CHECK(std::distance(std::filesystem::directory_iterator(first.path), std::filesystem::directory_iterator()) == 10);
 }
 
 TEST_CASE("a folder that can't be made is reported by name") {
