@@ -63,7 +63,7 @@ class ExtrudeLowering {
                 kept.pop_back();
             } else if (command != nullptr) {
                 apply(*command, e, env, gate, scope);
-            } else if (const BlockInfo* block = findBlock(e.name)) {
+            } else if (const BlockInfo* block = findBlock(e)) {
                 unfoldBlock(*block, e, env, gate, scope, depth);
             } else {
                 call(e, env, gate, scope, depth);

@@ -37,7 +37,7 @@ class GrowthLowering {
         return all;
     }
     void addCalls(const Element& e, const std::string& rule, std::vector<Call>& all) {
-        const BlockInfo* block = findBlock(e.name);
+        const BlockInfo* block = findBlock(e);
         const CommandInfo* command = findCommand(e.name);
         if (block != nullptr && block->kind == Block::branch) {
             branch(e, *block, rule, all);
@@ -120,7 +120,7 @@ class GrowthLowering {
         const size_t firstRule = c_.symbolRecords[symbol.record].firstRule;
         for (uint32_t i = 0; i < symbol.rules.size(); ++i) {
             const Rule& rule = c_.module.rules[symbol.rules[i]];
-            const BlockInfo* block = rule.successor.size() == 1 ? findBlock(rule.successor[0].name) : nullptr;
+            const BlockInfo* block = rule.successor.size() == 1 ? findBlock(rule.successor[0]) : nullptr;
             if (block != nullptr && block->kind == Block::marching)
                 march(symbol, rule, i, envs[i], firstRule + i);
             else
@@ -169,7 +169,7 @@ class GrowthLowering {
 
     void march(const Symbol& symbol, const Rule& rule, uint32_t ordinal, Env& env, size_t index) {
         const Element& e = rule.successor[0];
-        const BlockInfo& info = *findBlock(e.name);
+        const BlockInfo& info = *findBlock(e);
         if (!e.hasItems || e.args.size() < info.minArgs || e.args.size() > info.maxArgs ||
             e.items.size() > info.maxItems || e.items.empty()) {
             c_.reporter.error(

@@ -88,7 +88,7 @@ void PatternLowering::walk(const Sequence& sequence, Env& env, State& state, Pro
     for (const Element& e : sequence) {
         if (!c_.expressions.withinBudget(e.place, env.rule) || c_.reporter.full()) return;
         const CommandInfo* command = findCommand(e.name);
-        const BlockInfo* block = findBlock(e.name);
+        const BlockInfo* block = findBlock(e);
         const Trial last = std::exchange(trial, {production.prereq, kNoIndex});
         if (command != nullptr && command->kind == Command::omit) {
             omit(*command, e, env, last, production);
@@ -167,7 +167,7 @@ const Rule* PatternLowering::simpleRule(const Symbol& symbol) const {
     uint32_t made = 0;
     for (const Element& e : rule.successor) {
         const CommandInfo* command = findCommand(e.name);
-        if (findBlock(e.name) != nullptr) return nullptr;
+        if (findBlock(e) != nullptr) return nullptr;
         if (e.hasItems) return nullptr;
         const bool makes = command == nullptr || command->kind == Command::place ||
                            command->kind == Command::placeTested || command->kind == Command::placeMerged;

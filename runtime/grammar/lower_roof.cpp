@@ -143,7 +143,7 @@ class RoofLowering {
                 continue;
             } else if (command != nullptr && command->kind != Command::shape) {
                 before.push_back(e);
-            } else if (before.empty() && command == nullptr && findBlock(e.name) == nullptr) {
+            } else if (before.empty() && command == nullptr && findBlock(e) == nullptr) {
                 if (callee(e, env) != kNoSymbol) all.push_back({c_.symbols[callee(e, env)].record, &e});
             } else {
                 Sequence own = before;
@@ -178,7 +178,7 @@ class RoofLowering {
             }
         }
         if (findCommand(made->name) != nullptr) return terminal(*made, env, scope);
-        const BlockInfo* info = findBlock(made->name);
+        const BlockInfo* info = findBlock(*made);
         if (scope.plain && info != nullptr) return block(*info, *made, env, rule, name);
         std::vector<Target> to;
         if (info != nullptr)
@@ -231,7 +231,7 @@ class RoofLowering {
         bool plain = true;
         for (const Element& e : item) {
             const CommandInfo* command = findCommand(e.name);
-            plain = plain && findBlock(e.name) == nullptr && (command == nullptr || command->kind == Command::null);
+            plain = plain && findBlock(e) == nullptr && (command == nullptr || command->kind == Command::null);
         }
         if (!plain) return {nest(item, env, rule, name, 100 + part)};
         for (const Element& e : item)

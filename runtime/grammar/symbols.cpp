@@ -9,12 +9,12 @@ namespace espalier::grammar {
 namespace {
 
 bool isCall(const Element& e) {
-    return findBlock(e.name) == nullptr && findCommand(e.name) == nullptr;
+    return findBlock(e) == nullptr && findCommand(e.name) == nullptr;
 }
 
 const BlockInfo* wholeBlock(const Rule& rule, Block kind) {
     if (rule.successor.size() != 1) return nullptr;
-    const BlockInfo* block = findBlock(rule.successor[0].name);
+    const BlockInfo* block = findBlock(rule.successor[0]);
     return block != nullptr && block->kind == kind ? block : nullptr;
 }
 
@@ -167,7 +167,7 @@ GrammarKind kindOf(const Module& module) {
     bool roofs = false, marches = false, patterns = !module.fields.empty();
     for (const Rule& rule : module.rules)
         forEachElement(rule.successor, [&](const Element& e) {
-            const BlockInfo* block = findBlock(e.name);
+            const BlockInfo* block = findBlock(e);
             const CommandInfo* command = findCommand(e.name);
             patterns = patterns || (command != nullptr && isOfPatterns(command->kind));
             if (block == nullptr) return;

@@ -239,9 +239,15 @@ const DirectionInfo* findDirection(std::string_view name) {
     return findRow(kDirections, name);
 }
 
+const BlockInfo* findBlock(const Element& element) {
+    const BlockInfo* block = findBlock(element.name);
+    return block != nullptr && block->kind == Block::line && !element.hasItems ? nullptr : block;
+}
+
 std::string reservedFor(std::string_view name) {
     std::string quoted = "'" + std::string(name) + "' ";
-    if (findBlock(name) != nullptr) return quoted + "is the name of a rule kind";
+    const BlockInfo* block = findBlock(name);
+    if (block != nullptr && block->kind != Block::line) return quoted + "is the name of a rule kind";
     if (findCommand(name) != nullptr) return quoted + "is the name of a command";
     if (findFunction(name) != nullptr) return quoted + "is the name of a function";
     if (findDirection(name) != nullptr) return quoted + "is the name of a direction";

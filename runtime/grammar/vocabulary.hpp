@@ -28,6 +28,8 @@ struct BlockInfo {
     std::string_view usage;
 };
 const BlockInfo* findBlock(std::string_view name);
+// Of what stands in a production. A Line without braces is a symbol of the grammar's own, as in older ones of roofs.
+const BlockInfo* findBlock(const Element& element);
 
 enum class Command : uint8_t {
     size,

@@ -140,6 +140,7 @@ TEST_CASE("segments of a line hang on each other, and what stands behind the lin
     const std::pair<const char*, const char*> mistakes[] = {
         {"A -> T(1) LineSeg(\"star\", 0.1)", "between the braces of a Line"},
         {"A -> Line(merge) { LineSeg(\"star\", 0.1) }", "leads along a T"},
+        {"A -> Line IC(\"star\")", "Line"},
         {"A -> Line(melt) { T(1) LineSeg(\"star\", 0.1) }", "Line(merge) {successors}"},
         {"A -> Line { Line { T(1) LineSeg(\"star\", 0.1) } }", "Line(merge) {successors}"},
         {"A -> Line { T(1) LineSeg(\"tsar\", 0.1) }", "there is no mesh \"tsar\""},
