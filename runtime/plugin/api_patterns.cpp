@@ -98,9 +98,7 @@ EspResult espSetPieces(EspContext* context, const char* path) {
         if (known)
             return fail(context, ESP_INVALID_ARGUMENT,
                         "espSetPieces: a grammar of patterns is compiled already; destroy it before");
-        if (Status read = usePieces(*context, path ? std::filesystem::path(path) : std::filesystem::path()); !read)
-            return failWork(context, read.failure());
-        return ESP_OK;
+        return usePieces(*context, path ? std::filesystem::path(path) : std::filesystem::path());
     });
 }
 

@@ -155,16 +155,10 @@ EspResult derive(EspContext& context, const PatternPlanting& planting) {
     return ESP_OK;
 }
 
-}  // namespace
-
-Status usePieces(EspContext& context, const std::filesystem::path& wanted) {
-    ContextPatterns& patterns = context.patterns;
-    const std::filesystem::path path = wanted.empty() ? patterns.shipped : wanted;
-    if (path == patterns.file && !patterns.names.empty()) return Done{};
-    const Result<std::vector<std::byte>> file = context.files.read(path.string());
-    if (!file) return file.failure();
-    Result<TerminalData> meshes = parseTerminals(file.value(), path.string(), {"none"});
+Status takePieces(EspContext& context, const std::filesystem::path& path, std::span<const std::byte> file) {
+    Result<TerminalData> meshes = parseTerminals(file, path.string(), {"none"});
     if (!meshes) return meshes.failure();
+    ContextPatterns& patterns = context.patterns;
     std::vector<TerminalMesh> names;
     for (const std::string& kind : meshes->kinds) names.push_back({kind, false});
     patterns.meshes = collidersOf(*meshes);
@@ -174,8 +168,22 @@ Status usePieces(EspContext& context, const std::filesystem::path& wanted) {
     return Done{};
 }
 
+}  // namespace
+
+EspResult usePieces(EspContext& context, const std::filesystem::path& wanted) {
+    const std::filesystem::path path = wanted.empty() ? context.patterns.shipped : wanted;
+    if (path == context.patterns.file && !context.patterns.names.empty()) return ESP_OK;
+    std::vector<std::byte> file;
+    if (EspResult unread = readWhole(&context, path.string(), file)) return unread;
+    const Status taken = takePieces(context, path, file);
+    return taken ? ESP_OK : failWork(&context, taken.failure());
+}
+
 Status knowPieces(EspContext& context) {
-    return context.patterns.names.empty() ? usePieces(context, context.patterns.file) : Status(Done{});
+    if (!context.patterns.names.empty()) return Done{};
+    const std::filesystem::path path = context.patterns.shipped;
+    const Result<std::vector<std::byte>> file = context.files.read(path.string());
+    return file ? takePieces(context, path, file.value()) : Status(file.failure());
 }
 
 bool beginsPattern(const EspContext& context, const PlantedSeed& seed) {

@@ -84,7 +84,7 @@ Result<LayerBuf> fieldLayers(EspContext& context, const FieldInfo& info);
 Status knowPieces(EspContext& context);
 // Takes the meshes of another file, or of the shipped one where `file` is empty, before any grammar knows them. On
 // failure they are what they were.
-Status usePieces(EspContext& context, const std::filesystem::path& file);
+EspResult usePieces(EspContext& context, const std::filesystem::path& file);
 // Derives patterns anew if something that they depend on has changed; on failure the last ones stand.
 EspResult updatePatterns(EspContext& context);
 // Whether a seed begins a pattern, no plant.
