@@ -405,6 +405,10 @@ typedef struct EspLook {         /* all numbers finite */
     int ground;                  /* 1: a meadow to the horizon under it all, only to be looked at; default 0 */
     float groundLevel;           /* its height in the world, metres */
     int groundOvergrows;         /* 1: its grass grows over what of models lies almost as low, some 9 cm; default 1 */
+    float wind[3];               /* metres a second that the air moves, along the world's axes: leaves lean and flutter, stems
+                                    and shadows keep still. Default 0. It may change from frame to frame: gusts of the host's own */
+    float gusts;                 /* 0 to 1: how much of the wind comes in gusts that go over the plants; default 0.7 */
+    double clock;                /* seconds, of the wind: one clock, one picture. Nothing is derived when it goes on. Default 0 */
 } EspLook;
 ESP_API EspResult espDefaultLook(EspLook* out);
 /* For legends: the linear colour by which ESP_VIEW_DEPTH, ESP_VIEW_OVERDRAW, ESP_VIEW_LAYER, ESP_VIEW_LOD (levels, 0 the

@@ -30,8 +30,9 @@ namespace fs = std::filesystem;
 
 constexpr double kLookEvery = .3, kLookAtWorkEvery = .05, kWaking = 1 / 60.;  // seconds
 constexpr double kNewsSeconds = 12;                                           // that a message is shown
-constexpr size_t kHistory = 240;                                              // frames in the graph
-constexpr float kTurnDegrees = 2;                                             // a frame
+constexpr double kWindMs = 50;      // where a picture takes longer, the wind goes on only with what is drawn anyway
+constexpr size_t kHistory = 240;    // frames in the graph
+constexpr float kTurnDegrees = 2;   // a frame
 constexpr uint64_t kSettling = 60;  // frames in which detail and size follow the time
 
 }  // namespace
@@ -83,6 +84,7 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
     draw.look.viewLayer = work_.scene().viewLayer.c_str();
     draw.look.viewOpacity = work_.layout.layerOpacity;
     draw.look.viewLevel = work_.viewLevel;
+    draw.look.clock = glfwGetTime();
     EspBrush brush;
     if (std::optional limiting = limitingStroke(work_); limiting_ != limiting) {
         limiting_ = std::move(limiting);
@@ -104,7 +106,8 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
         return fail(image_->error());
     }
     if (image_->drew()) {
-        work_.redraw = work_.readStats() && (work_.stats.modelsFading > 0 || work_.stats.shadowsBehind);
+        work_.redraw = work_.readStats() && (work_.stats.modelsFading > 0 || work_.stats.shadowsBehind ||
+                                             (work_.blows() && work_.stats.drawMs < kWindMs));
         moving_.drew(work_.frameMs, uint32_t(work_.stats.drawnLeaves), controls_->painting());
     }
     ImGui::Render();

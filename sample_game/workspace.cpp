@@ -89,6 +89,11 @@ void Workspace::showAtlas(bool shown) {
     layout.atlas = shown;
 }
 
+bool Workspace::blows() const {
+    const float* wind = scene().look.wind;
+    return wind[0] != 0 || wind[1] != 0 || wind[2] != 0;
+}
+
 bool Workspace::readStats() {
     if (espReadStats(context.get(), &stats) == ESP_OK && espReadRoofStats(context.get(), &roofs) == ESP_OK) return true;
     error = espLastError(context.get());

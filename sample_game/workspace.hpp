@@ -198,6 +198,8 @@ struct Workspace {
     void forgetBarren() { asked_ = {}; }  // keys are other seeds' from now on
     // False: `error` says why.
     bool readStats();
+    // Whether the scene has wind.
+    bool blows() const;
     // Where a point of the scene is in the window; nothing: behind the camera.
     std::optional<glm::vec2> place(glm::vec3 point) const;
     // Nothing of the scene is before the point.

@@ -31,6 +31,7 @@ void setDefaults(EspLook& out) {
     out.leafPixels = look.leafPixels;
     out.viewOpacity = look.layerOpacity;
     out.groundOvergrows = 1;
+    out.gusts = look.gusts;
 }
 
 void setDefaults(EspCamera& out) {

@@ -18,6 +18,7 @@ bool finiteLook(const EspLook& look) {
     for (const float* v :
          {look.sunDirection, look.sunColour, look.skyColour, look.groundColour, look.background, look.horizon})
         if (!finite(v)) return false;
+    if (!finite(look.wind) || !std::isfinite(look.gusts) || !std::isfinite(look.clock)) return false;
     for (float v : {look.exposure, look.viewOpacity, look.lodPixels, look.leafPixels, look.groundLevel})
         if (!std::isfinite(v)) return false;
     return true;
@@ -47,6 +48,9 @@ EspResult makeLook(EspContext& context, const std::string& call, const EspLook& 
     look.shadows = from.shadows != 0;
     look.shadowsLag = from.shadowsLag != 0;
     look.quick = from.quick != 0;
+    look.wind = vec(from.wind);
+    look.gusts = from.gusts;
+    look.clock = from.clock;
     static_assert(uint32_t(ViewMode::charts) == ESP_VIEW_CHARTS && uint32_t(ViewMode::normals) == ESP_VIEW_NORMALS &&
                   uint32_t(ViewMode::lod) == ESP_VIEW_LOD && uint32_t(ViewMode::layer) == ESP_VIEW_LAYER &&
                   uint32_t(ViewMode::depth) == ESP_VIEW_DEPTH && uint32_t(ViewMode::overdraw) == ESP_VIEW_OVERDRAW);

@@ -51,6 +51,9 @@ struct Look {
     uint32_t level = 0;              // for ViewMode::charts
     bool pieces = true;              // false: those of patterns aren't drawn
     float lodPixels = 1;             // error allowed when choosing LOD, pixels
+    glm::vec3 wind{0};               // metres a second
+    float gusts = 0.7f;              // 0 to 1: how much of it comes in gusts
+    double clock = 0;                // seconds
     float leafPixels = 8;  // leaves of at least so many are all drawn, of smaller ones fewer and larger; beyond 8 also
                            // fewer twigs
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "runtime/render/targets.hpp"
 
@@ -34,6 +35,17 @@ glm::mat4 viewMatrix(glm::vec3 eye, glm::vec3 forward, glm::vec3 up, glm::vec3& 
     }
     m[3] = glm::vec4(-glm::dot(right, eye), -glm::dot(trueUp, eye), glm::dot(forward, eye), 1);
     return m;
+}
+
+// All turns at rates of their own, so that a wind that rises or falls makes nothing jump.
+void blow(const Look& look, FrameRecord& frame) {
+    constexpr double kRates[3] = {0.31, 1.3, 4.1};             // of gusts, leaning and fluttering, turns a second
+    constexpr float kBendPerSpeed = 0.06f, kMostBend = 0.75f;  // of a leaf's length; by metres a second
+    frame.wind = unitOr(look.wind, {1, 0, 0});
+    frame.windBend = std::min(kBendPerSpeed * glm::length(look.wind), kMostBend);
+    frame.windGusts = std::clamp(look.gusts, 0.0f, 1.0f);
+    for (int i = 0; i < 3; ++i)
+        frame.windTurns[i] = float(std::fmod(look.clock * kRates[i], 1.0) * 2 * std::numbers::pi);
 }
 
 }  // namespace
@@ -83,6 +95,7 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     frame.rayUp = up * tangent;
     frame.rayForward = forward - camera.shift.x * frame.rayRight - camera.shift.y * frame.rayUp;
     frame.pixelScale = float(height) / (2 * tangent);
+    blow(look, frame);
     frame.unit = 1;
     frame.surfaces = inputs.surfaces;
     frame.layers = inputs.layers;

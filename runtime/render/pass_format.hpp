@@ -17,6 +17,7 @@ struct PassFormat {
     uint32_t samples = 1;
     bool reversed = true;  // nearer is more
     uint32_t output = kOutputStored;
+    bool windy = false;  // leaves bend in the wind
     float biasConstant = 0, biasSlope = 0;
     VkRenderPass renderPass = VK_NULL_HANDLE;  // null: dynamic rendering
     uint32_t subpass = 0;
@@ -50,6 +51,7 @@ inline GraphicsDesc inPass(const PassFormat& pass, const char* name, const char*
     desc.depthBiasSlope = pass.biasSlope;
     desc.options.constants = std::move(constants);
     desc.options.constants.push_back({kConstantOutput, pass.output});
+    desc.options.constants.push_back({kConstantWindy, pass.windy ? 1u : 0u});
     return desc;
 }
 

@@ -301,6 +301,7 @@ void Renderer::forget() {
 void Renderer::begin(const DrawInputs& inputs, PassFormat pass) {
     now_ = {};
     now_.pass = std::move(pass);
+    now_.pass.windy = inputs.look.wind != glm::vec3(0);
     now_.grows = inputs.growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
     now_.roofed = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
     now_.patterned = pieces_ && !pieces_->empty() && inputs.look.pieces;

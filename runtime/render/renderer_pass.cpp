@@ -21,7 +21,7 @@ Status Renderer::prepare(Commands& commands, const DrawInputs& inputs, const Pas
         if (Status s = pickScene(shownView(inputs), false); !s) return s;
         if (Status s = keepShadows(commands, seen, frame); !s) return s;
     } else {
-        if (Status s = pickDepths(pass.format); !s) return s;
+        if (Status s = pickDepths(now_.pass); !s) return s;
     }
     now_.meadowLevel = frame.groundLevel;
     now_.unit = frame.unit;

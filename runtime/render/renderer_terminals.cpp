@@ -43,13 +43,15 @@ Status Renderer::makeLit(ScenePrograms& programs) const {
         ScenePrograms::Lit& lit = litPrograms(programs, b);
         std::vector<SpecConstant> constants = constantsOf(Shading::quick, holdsRoots(device_));
         constants.push_back({kConstantCorners, table.buckets[b].vertexCount});
+        std::vector<SpecConstant> lighting = constants;
+        lighting.push_back({kConstantWindy, now_.pass.windy ? 1u : 0u});
         const Status drawn = bark ? makeSceneProgram(lit.draw, "lit bark", "render/bark_lit.vert",
                                                      "render/bark_small_single.frag", constants, Blend::none)
                                   : makeSceneProgram(lit.draw, "lit leaf", "render/leaf_lit.vert",
                                                      "render/leaf_lit.frag", constants, Blend::none);
         if (!drawn) return drawn;
         Result<Program> made = Program::compute(
-            device_, bark ? "render/light_ribbons.comp" : "render/light_leaves.comp", {.constants = constants});
+            device_, bark ? "render/light_ribbons.comp" : "render/light_leaves.comp", {.constants = lighting});
         if (!made) return made.failure();
         lit.light = std::move(*made);
     }

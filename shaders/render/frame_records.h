@@ -54,8 +54,12 @@ struct FrameRecord {
     vec3 grassColor;         // of the ground that is drawn
     vec2 siteLow, siteRcp;   // the site's map: its corner, 1 / its size; world, metres; 0: there is none
     vec3 wideScale, wideOffset;   // coordinates in the near shadow map -> in the wide one
+    vec3 wind;               // the way it blows, unit
+    float windBend;          // how far leaves lean that way, in their length; of programs that know of wind
+    vec3 windTurns;          // how far gusts, leaning and fluttering are in their turns, radians
+    float windGusts;         // 0 to 1: how much of the wind comes in gusts
 };
-STATIC_SIZE(FrameRecord, 384);
+STATIC_SIZE(FrameRecord, 416);
 
 struct ModelPush {
     vec4 toWorld[3];         // rows

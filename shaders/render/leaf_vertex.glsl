@@ -4,6 +4,7 @@
 #include "shaders/emit/triangle_vertex.glsl"
 #include "shaders/render/drawn.glsl"
 #include "shaders/render/frame.glsl"
+#include "shaders/render/wind.glsl"
 
 struct LeafVertex {
     LeafInstance instance;
@@ -21,6 +22,7 @@ LeafVertex leafVertexOf(LeafInstance o, TerminalVertex mesh) {
     v.instance = o;
     v.position = o.origin + arm;
     v.normal = (o.axisX * n.x + o.axisY * n.y + o.axisZ * n.z) / size;
+    if (windy) v.position = o.origin + blown(arm, v.normal, o.origin, o.hash);
     v.tangent = o.axisX / size;
     v.uv = mesh.uv;
     // Deep in the canopy little sky is seen: measured by the height over the surface, in leaf sizes.

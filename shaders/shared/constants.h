@@ -16,6 +16,7 @@ CONST_UINT(kConstantRooted, 7u);            // textures hold square roots of col
 CONST_UINT(kConstantQuick, 8u);             // a picture of what moves, which has to be cheap
 CONST_UINT(kConstantRest, 9u);              // the meadow on the feet of models, and hills before the sky, are drawn, too
 CONST_UINT(kConstantOutput, 10u);           // kOutput…: what a pass holds
+CONST_UINT(kConstantWindy, 11u);            // leaves bend in the wind
 
 // What fragments write. Stored: as tone.glsl says, to be resolved later. The others are for hosts' own passes:
 // tone-mapped, encoded to sRGB or not; light times exposure, which the host maps.

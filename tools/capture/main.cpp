@@ -39,6 +39,8 @@ struct LayerFile {
     std::string layer, file;
 };
 
+constexpr double kFrameRate = 30;  // of films, for the wind
+
 struct Options {
     Request request;
     std::vector<std::string> layersSaid, exportsSaid;  // as they were written
@@ -46,6 +48,7 @@ struct Options {
     uint32_t frames = 1;
     uint32_t width = 1280, height = 720;
     std::optional<float> hour;
+    double clock = 0;
     std::string size, folder = "out", stats, view = "shaded", walk, camera, cache = cacheFolder(), replay;
     uint32_t every = 1;
     long long seed = -1;
@@ -110,6 +113,9 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_option("--hour", options.hour, "light of this time of the day, 0 to 24, instead of the scene's")
         ->check(CLI::Range(0.0, 24.0))
         ->excludes(replay);
+    app.add_option("--clock", options.clock,
+                   "seconds, of the scene's wind in the first frame; each frame is a thirtieth of a second later")
+        ->check(CLI::Range(0.0, 1e9));
     app.add_option("--walk", options.walk, "intrinsic or paper, instead of what the scene says")
         ->check(CLI::IsMember({"intrinsic", "paper"}));
     app.add_option("--max-nodes", options.maxNodes, "growth stops there")
@@ -200,6 +206,7 @@ struct Film {
     esp::DrawDef draw;
     std::string folder;
     bool moving = false;
+    double clock = 0;   // of the first frame
     bool rests = true;  // growth does: shadows that lag make no picture depend on which others are taken
     std::vector<uint8_t> pixels;
 
@@ -214,6 +221,7 @@ struct Film {
         esp::DrawDef shown = draw;
         if (moving) espalier::scene::MovingDetail().apply(shown.look);
         shown.look.shadowsLag = moving && rests;
+        shown.look.clock = clock + frame / kFrameRate;
         if (espDraw(context, &shown) != ESP_OK || espReadPixels(context, pixels.data(), pixels.size()) != ESP_OK) {
             error = espLastError(context);
             return false;
@@ -332,7 +340,7 @@ int run(Options options) {
     if (espUpdate(made) != ESP_OK) return fail(espLastError(made));
 
     Scene scene = document.scene();
-    Film film{made, esp::DrawDef(), options.folder, options.moving, !replays, {}};
+    Film film{made, esp::DrawDef(), options.folder, options.moving, options.clock, !replays, {}};
     film.draw.width = options.width;
     film.draw.height = options.height;
     film.draw.look = scene.look;

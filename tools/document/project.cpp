@@ -28,6 +28,8 @@ void describeLook(const scene::Scene& scene, SceneFile& out) {
     out.hour = scene.hour;
     out.exposure = scene.look.exposure;
     out.shadows = scene.look.shadows != 0;
+    if (three(own.wind) != std::array<float, 3>{}) out.wind = three(own.wind);
+    out.gusts = own.gusts;
     if (own.ground) out.groundLevel = own.groundLevel;
     out.groundOvergrows = own.groundOvergrows != 0;
     out.hasCamera = true;

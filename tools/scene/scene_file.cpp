@@ -22,7 +22,7 @@ class Reader : JsonChecks {
         if (!readVersion(json)) return;
         if (!isObject(json, "a scene",
                       {"project", "follows", "surface", "surfaces", "town", "pruned", "walk", "grammars", "filled",
-                       "layers", "camera", "sun", "sky", "ground", "site", "pieces", "exposure"}))
+                       "layers", "camera", "sun", "sky", "ground", "site", "pieces", "wind", "exposure"}))
             return;
         if (json.find("follows")) word(json, "follows", out_.follows);
         readSurfaces(json);
@@ -66,6 +66,10 @@ class Reader : JsonChecks {
         if (const Json* ground = json.find("ground"); ground && isObject(*ground, "'ground'", {"level", "overgrows"})) {
             number(*ground, "level", -1e5f, 1e5f, out_.groundLevel.emplace(0.f));
             flag(*ground, "overgrows", out_.groundOvergrows);
+        }
+        if (const Json* wind = json.find("wind"); wind && isObject(*wind, "'wind'", {"velocity", "gusts"})) {
+            vector(*wind, "velocity", out_.wind);
+            number(*wind, "gusts", 0, 1, out_.gusts);
         }
         number(json, "exposure", -kMostExposure, kMostExposure, out_.exposure);
     }
@@ -339,6 +343,8 @@ void SceneFile::applyLook(EspLook& look) const {
     set(look.groundColour, groundColour);
     set(look.background, background);
     set(look.horizon, horizon);
+    set(look.wind, wind);
+    look.gusts = gusts;
     look.exposure = exposure;
     look.shadows = shadows;
     look.ground = groundLevel.has_value();

@@ -56,6 +56,8 @@ struct SceneFile {
 
     std::optional<std::array<float, 3>> sunDirection, sunColour, skyColour, groundColour, background, horizon;
     float sunIntensity = 1, exposure = 0;
+    std::optional<std::array<float, 3>> wind;  // metres a second; none: stillness
+    float gusts = 0.7f;
     float hour = kOwnSun;
     bool shadows = true;
     std::optional<float> groundLevel;  // a ground is drawn there, to the horizon

@@ -156,6 +156,10 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     if (!sky.empty()) json["sky"] = sky;
     if (file.groundLevel) json["ground"] = {{"level", shortest(*file.groundLevel)}};
     if (file.groundLevel && !file.groundOvergrows) json["ground"]["overgrows"] = false;
+    if (file.wind) {
+        vector(json["wind"], "velocity", file.wind);
+        json["wind"]["gusts"] = shortest(file.gusts);
+    }
     if (file.exposure != 0) json["exposure"] = shortest(file.exposure);
     return textOf(json, 1) + "\n";
 }
