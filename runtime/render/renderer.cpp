@@ -186,7 +186,7 @@ Status Renderer::cullGrowth(Commands& commands, const DrawInputs& inputs, const 
 
 Status Renderer::cullGrowth(Commands& commands, const DrawInputs& inputs, EmitView view) {
     thinOut(view, inputs.look.leafPixels);
-    view.scene = sceneOf(inputs);
+    if (view.tiles.v != nullptr) view.scene = sceneOf(inputs);
     if (now_.roofed)
         if (Status s = roofs_->cull(commands, *inputs.roofs, view, false, "emit"); !s) return s;
     if (!now_.grows) return Done{};
