@@ -15,16 +15,25 @@ namespace {
 
 constexpr uint32_t kResolution = 512;
 
-// A ball of unit width that stands on its origin: what all pieces are here.
-void addBall(PieceMeshes& meshes) {
+// The meshes that grammars ask for, in the order of their numbers, and how wide the ball is that stands for each:
+// scales and links overlap by design.
+struct Stand {
+    const char* name;
+    float width;
+};
+constexpr Stand kStands[] = {{"scale", .3f}, {"cobble", 1}, {"link", .3f},    {"tile", .9f}, {"rod", .5f},
+                             {"leaf", .5f},  {"stud", .2f}, {"blossom", .5f}, {"tube", 1},   {"band", 1}};
+
+// A ball that stands on its origin.
+void addBall(PieceMeshes& meshes, float width) {
     constexpr uint32_t kAround = 10, kUp = 6;
     std::vector<glm::vec3> points;
     for (uint32_t j = 0; j <= kUp; ++j)
         for (uint32_t i = 0; i < kAround; ++i) {
             const float a = 2 * std::numbers::pi_v<float> * float(i) / kAround;
             const float b = std::numbers::pi_v<float> * float(j) / kUp;
-            points.push_back(
-                {.5f * std::sin(b) * std::cos(a), .5f - .5f * std::cos(b), .5f * std::sin(b) * std::sin(a)});
+            points.push_back(glm::vec3(std::sin(b) * std::cos(a), 1 - std::cos(b), std::sin(b) * std::sin(a)) *
+                             (width / 2));
         }
     std::vector<uint32_t> indices;
     for (uint32_t j = 0; j < kUp; ++j)
@@ -60,7 +69,7 @@ struct PatternBench {
         if (!baked) return baked.failure();
         surface = std::move(baked->surface);
         mesh = makeFieldMesh(surface);
-        addBall(meshes);
+        for (const Stand& stand : kStands) addBall(meshes, stand.width);
         surfaceRefs[0] = surfaceRef(surface);
         return Done{};
     }
@@ -71,8 +80,7 @@ struct PatternBench {
         if (const size_t at = text.find(scale); at != std::string::npos)
             text.replace(at, scale.size(), "param scale = " + std::to_string(mesh.radius) + " ");
         CompileOptions options;
-        for (const char* name : {"scale", "cobble", "link", "tile", "rod", "leaf", "blossom", "tube", "band"})
-            options.pieces.push_back({name, false});
+        for (const Stand& stand : kStands) options.pieces.push_back({stand.name, false});
         Result<RuleMap> map = compileGrammar(text, options);
         if (!map) return map.failure();
         rules = std::move(*map);
