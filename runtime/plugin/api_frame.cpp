@@ -98,18 +98,12 @@ EspCamera frameAll(const EspContext& context) {
 struct Wanted {
     EspDrawDef def;
     EspCamera camera{};
-    EspLook look{};
-    EspBrush brush{};
+    TakenLook shown;
     EspHostScene scene{};
 
-    Wanted(const EspContext& context, const EspDrawDef* given) : def(taken("espDraw", given)) {
+    Wanted(const EspContext& context, const EspDrawDef* given)
+        : def(taken("espDraw", given)), shown("espDraw", def.look) {
         camera = def.camera ? taken("espDraw: camera", def.camera) : frameAll(context);
-        setDefaults(look);
-        look = takenOr("espDraw: look", def.look, look);
-        if (look.viewBrush) {
-            brush = taken("espDraw: viewBrush", look.viewBrush);
-            look.viewBrush = &brush;
-        }
         if (def.scene) {
             scene = taken("espDraw: scene", def.scene);
             def.scene = &scene;
@@ -131,7 +125,8 @@ const char* usageMissing(VkImageUsageFlags colour, VkImageUsageFlags depth) {
 
 // What doesn't depend on where a frame is drawn.
 EspResult checkView(const EspContext* context, const Wanted& wanted) {
-    const auto& [def, camera, look, brush, scene] = wanted;
+    const auto& [def, camera, shown, scene] = wanted;
+    const EspLook& look = shown.look;
     if (EspResult bad = checkLook(context, "espDraw", look)) return bad;
     if (def.width < 1 || def.height < 1 || def.width > kMaxFrameSide || def.height > kMaxFrameSide)
         return fail(context, ESP_INVALID_ARGUMENT, "espDraw: a frame is 1 to 16384 pixels wide and high");
@@ -149,7 +144,8 @@ EspResult checkView(const EspContext* context, const Wanted& wanted) {
 
 EspResult checkDraw(const EspContext* context, const Wanted& wanted) {
     if (EspResult bad = checkView(context, wanted)) return bad;
-    const auto& [def, camera, look, brush, scene] = wanted;
+    const auto& [def, camera, shown, scene] = wanted;
+    const EspLook& look = shown.look;
     if (def.commandBuffer && (!def.colourImage || !def.colourView || !def.frame))
         return fail(context, ESP_INVALID_ARGUMENT,
                     "espDraw: with a command buffer, colourImage, colourView and frame are needed");
@@ -167,10 +163,7 @@ EspResult checkDraw(const EspContext* context, const Wanted& wanted) {
     if (const char* missing = def.scene ? usageMissing(def.colourUsage, scene.depthUsage) : nullptr)
         return fail(context, ESP_INVALID_ARGUMENT,
                     std::string("espDraw: the scene's images can't be read and drawn into: ") + missing);
-    if (def.commandBuffer && def.frame <= std::max(def.framesDone, context->device->hostFrame()))
-        return fail(context, ESP_INVALID_ARGUMENT,
-                    "espDraw: frame " + std::to_string(def.frame) + " is done already: frames are numbered rising");
-    return ESP_OK;
+    return def.commandBuffer ? checkFrame(context, "espDraw", def.frame, def.framesDone) : ESP_OK;
 }
 
 Camera cameraOf(const EspCamera& camera) {
@@ -181,7 +174,8 @@ Camera cameraOf(const EspCamera& camera) {
 EspResult draw(EspContext& context, const Wanted& wanted) {
     if (EspResult bad = checkDraw(&context, wanted)) return bad;
     FrameInputs inputs;
-    if (EspResult bad = findInputs(context, "espDraw", wanted.look, wanted.def.scene != nullptr, inputs)) return bad;
+    if (EspResult bad = findInputs(context, "espDraw", wanted.shown.look, wanted.def.scene != nullptr, inputs))
+        return bad;
     inputs.camera = cameraOf(wanted.camera);
     const EspDrawDef& def = wanted.def;
     const EspHostScene& scene = wanted.scene;
@@ -232,7 +226,8 @@ EspResult warmUp(EspContext& context, const Wanted& wanted) {
         (hosted && (format == VK_FORMAT_UNDEFINED || !isDepthFormat(VkFormat(scene.depthFormat)))))
         return fail(&context, ESP_INVALID_ARGUMENT, "espWarmUp: frames are drawn into no such formats");
     FrameInputs inputs;
-    if (EspResult bad = findInputs(context, "espDraw", wanted.look, wanted.def.scene != nullptr, inputs)) return bad;
+    if (EspResult bad = findInputs(context, "espDraw", wanted.shown.look, wanted.def.scene != nullptr, inputs))
+        return bad;
     inputs.camera = cameraOf(wanted.camera);
     DrawTarget target;
     target.width = target.height = kSide;

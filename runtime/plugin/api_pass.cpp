@@ -98,22 +98,14 @@ EspResult takeView(const EspContext* context, const EspPassDef& def, PassView& o
 EspResult prepare(EspContext& context, const EspPassDef& def) {
     PassView pass;
     if (EspResult bad = takeView(&context, def, pass)) return bad;
-    EspLook look{};
-    setDefaults(look);
-    look = takenOr("espPrepare: look", def.look, look);
-    EspBrush brush{};
-    if (look.viewBrush) {
-        brush = taken("espPrepare: viewBrush", look.viewBrush);
-        look.viewBrush = &brush;
-    }
+    const TakenLook shown("espPrepare", def.look);
+    const EspLook& look = shown.look;
     if (EspResult bad = checkLook(&context, "espPrepare", look)) return bad;
     if (look.view == ESP_VIEW_OVERDRAW)
         return fail(&context, ESP_INVALID_ARGUMENT, "espPrepare: there is no view of overdraw within a host's pass");
     if (!def.commandBuffer || !def.frame)
         return fail(&context, ESP_INVALID_ARGUMENT, "espPrepare: commandBuffer and frame are needed");
-    if (def.frame <= std::max(def.framesDone, context.device->hostFrame()))
-        return fail(&context, ESP_INVALID_ARGUMENT,
-                    "espPrepare: frame " + std::to_string(def.frame) + " is done already: frames are numbered rising");
+    if (EspResult bad = checkFrame(&context, "espPrepare", def.frame, def.framesDone)) return bad;
     FrameInputs inputs;
     if (EspResult bad = findInputs(context, "espPrepare", look, true, inputs)) return bad;
     if (def.framesDone) context.device->hostFrameDone(def.framesDone);

@@ -92,6 +92,20 @@ EspResult showField(EspContext& context, const std::string& call, const std::str
 
 }  // namespace
 
+TakenLook::TakenLook(const std::string& call, const EspLook* given) {
+    setDefaults(look);
+    look = takenOr((call + ": look").c_str(), given, look);
+    if (!look.viewBrush) return;
+    brush = taken((call + ": viewBrush").c_str(), look.viewBrush);
+    look.viewBrush = &brush;
+}
+
+EspResult checkFrame(const EspContext* context, const std::string& call, uint64_t frame, uint64_t framesDone) {
+    if (frame > std::max(framesDone, context->device->hostFrame())) return ESP_OK;
+    return fail(context, ESP_INVALID_ARGUMENT,
+                call + ": frame " + std::to_string(frame) + " is done already: frames are numbered rising");
+}
+
 EspResult checkLook(const EspContext* context, const std::string& call, const EspLook& look) {
     if (!isAmong(look.view, ESP_VIEW_SHADED, ESP_VIEW_FIELD))
         return fail(context, ESP_INVALID_ARGUMENT, call + ": no such view");
