@@ -59,15 +59,7 @@ DrawingHost::~DrawingHost() {
 }
 
 EspHostDevice DrawingHost::device() const {
-    EspHostDevice host{};
-    host.getInstanceProcAddr = reinterpret_cast<void*>(device_->getInstanceProcAddr());
-    host.instance = device_->instance();
-    host.physicalDevice = device_->physicalDevice();
-    host.device = device_->handle();
-    host.queue = device_->queue();
-    host.queueFamily = device_->info().queueFamily;
-    host.deviceInfo = &madeAsRequired();
-    return host;
+    return hostDeviceOf(*device_);
 }
 
 bool DrawingHost::has(VkFormat format) const {

@@ -3,6 +3,7 @@
 #include <vulkan/vulkan.h>
 
 #include "plugin_api/espalier.h"
+#include "runtime/gpu/device.hpp"
 
 namespace espalier {
 
@@ -16,6 +17,19 @@ inline const VkDeviceCreateInfo& madeAsRequired() {
         return info;
     }();
     return made;
+}
+
+// A device of a test's own as a host hands it in.
+inline EspHostDevice hostDeviceOf(const Device& device) {
+    EspHostDevice host{};
+    host.getInstanceProcAddr = reinterpret_cast<void*>(device.getInstanceProcAddr());
+    host.instance = device.instance();
+    host.physicalDevice = device.physicalDevice();
+    host.device = device.handle();
+    host.queue = device.queue();
+    host.queueFamily = device.info().queueFamily;
+    host.deviceInfo = &madeAsRequired();
+    return host;
 }
 
 }  // namespace espalier

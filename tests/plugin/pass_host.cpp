@@ -201,15 +201,7 @@ PassHost::~PassHost() {
 }
 
 EspHostDevice PassHost::device() const {
-    EspHostDevice host{};
-    host.getInstanceProcAddr = reinterpret_cast<void*>(device_->getInstanceProcAddr());
-    host.instance = device_->instance();
-    host.physicalDevice = device_->physicalDevice();
-    host.device = device_->handle();
-    host.queue = device_->queue();
-    host.queueFamily = device_->info().queueFamily;
-    host.deviceInfo = &madeAsRequired();
-    return host;
+    return hostDeviceOf(*device_);
 }
 
 uint32_t PassHost::sampleCounts() const {
