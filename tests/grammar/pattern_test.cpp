@@ -62,6 +62,15 @@ M = [ S(0.1, 0.55, 0.1) RS(90) I("cylinder.obj")]
 
 }  // namespace
 
+TEST_CASE("a symbol may be called Line, as in grammars of roofs") {
+    for (const char* text :
+         {"Ivy -> Branch(1) {Line}\nLine -> Marching(0.1, 0, true) {Line, Leaf}\nLeaf -> S(0.1) Shape(\"leaf\")",
+          "A -> Line\nLine -> IC(\"star\")"}) {
+        const std::string refused = patternRefusal(text);
+        CHECK_MESSAGE(refused.empty(), refused);
+    }
+}
+
 TEST_CASE("the paper's texts compile but for the alphabet") {
     const RuleMap lattice = patternMap(kLattice);
     CHECK(lattice.patterns());

@@ -130,6 +130,21 @@ TEST_CASE("what can't be a field or a pattern is refused, and what stands stays"
     CHECK(pattern.stats().hash == before);
 }
 
+TEST_CASE("an exact field that a surface has too few vertices for is refused, and says so") {
+    Pattern pattern;
+    const EspFieldElement element{ESP_ELEMENT_WEDGE, {.3f, .3f, 0}, {1, 0, 0}, .2f};
+    EspFieldDef def = esp::defaults<EspFieldDef>();
+    def.elements = &element;
+    def.elementCount = 1;
+    uint32_t count = 0;
+    REQUIRE(espSetField(pattern.context, pattern.surface, "flow", &def) == ESP_OK);
+    CHECK(espFieldSingularities(pattern.context, pattern.surface, "flow", nullptr, &count) == ESP_OK);
+    def.exact = 1;
+    REQUIRE(espSetField(pattern.context, pattern.surface, "flow", &def) == ESP_OK);
+    CHECK(espFieldSingularities(pattern.context, pattern.surface, "flow", nullptr, &count) == ESP_INVALID_CONTENT);
+    CHECK(std::string(espLastError(pattern.context)).find("too few vertices") != std::string::npos);
+}
+
 TEST_CASE("another palette is taken before a grammar knows the meshes, and a wrong one changes nothing") {
     Life life;
     EspContextDef def = esp::defaults<EspContextDef>();
