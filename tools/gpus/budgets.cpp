@@ -13,8 +13,7 @@ struct Exception {
 };
 constexpr Exception kExceptions[] = {
     // Polaris has 256 registers a lane, so that three subgroups fit with 84 each. A stretch of the walk takes some 100
-    // by
-    // itself, the laying of a step's samples 120, and the begin of a chunk 100.
+    // by itself, the laying of a step's samples 120, and the begin of a chunk 100.
     {"expand/march.comp", kNavi, {0, 0, 2}},
     {"expand/march_paper.comp", kNavi, {0, 0, 2}},
     {"expand/march_again.comp", kNavi, {0, 0, 2}},
