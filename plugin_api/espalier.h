@@ -61,7 +61,8 @@ typedef enum EspResult {
     ESP_IO_FAILED = 3,          /* can't read or write */
     ESP_NO_DEVICE = 4,          /* no Vulkan device that can run Espalier, or it can't be made; a driver that was found to
                                    run kernels wrongly */
-    ESP_DEVICE_LOST = 5,        /* destroy the context and create it anew */
+    ESP_DEVICE_LOST = 5,        /* VK_ERROR_DEVICE_LOST: of each function that needs the device, from then on, until espRecreate
+                                   has given the context another one */
     ESP_OUT_OF_MEMORY = 6,
     ESP_STOPPED = 7,            /* who watches growth gave it up (espWatchGrowth) */
     ESP_DRIVER_FAILED = 8,      /* a call of the GPU's driver failed, and neither for want of memory nor because the device is
@@ -98,9 +99,9 @@ typedef struct EspHostDevice {
     void* device;                /* VkDevice */
     void* queue;                 /* VkQueue: graphics and compute */
     int debugUtils;              /* 1: VK_EXT_debug_utils is on: objects get names and passes labels */
-    const void* deviceInfo;      /* VkDeviceCreateInfo that `device` was made with, its chain too; read by espCreate only.
-                                    What it leaves out of what is required is named in espCreate's error. With the feature
-                                    samplerAnisotropy what is seen at a grazing angle stays sharp */
+    const void* deviceInfo;      /* VkDeviceCreateInfo that `device` was made with, its chain too; read by espCreate and
+                                    espRecreate only, whose errors name what it leaves out of what is required. With the
+                                    feature samplerAnisotropy what is seen at a grazing angle stays sharp */
     void* pipelineCache;         /* VkPipelineCache, in which pipelines are looked for and to which they are added, by the
                                     context's functions on their thread; NULL: none */
 } EspHostDevice;
@@ -147,6 +148,18 @@ ESP_API EspResult espCreate(uint32_t headerVersion, const EspContextDef* def, Es
  * submitted by then must never be. NULL is allowed. */
 ESP_API void espDestroy(EspContext* context);
 
+/* Gives a context another device: after ESP_DEVICE_LOST, or to move it to another GPU. Ids stay. Surfaces are read again
+ * from their files, which must be as they were. Those that came from memory are read from the context's copy. Layers are as
+ * painted, seeds, parameters, looks, towns, fields, graphs, props and what is frozen or pruned as they were; strokes can be
+ * undone, and open ones go on. The next espUpdate grows all anew, the same to the bit. Loads begin again. A call that
+ * returned ESP_DEVICE_LOST has done nothing of what it was for, and may be made again.
+ * device: NULL for one of Espalier's own. What the earlier device's host keeps alive may go when this has returned ESP_OK.
+ * Waits for the GPU. What was recorded into the host's command buffers and isn't submitted by then must never be, as with
+ * espDestroy. On failure call it again, with this device or another; the message names a file that can't be read any more.
+ * Until then functions answer ESP_DEVICE_LOST; only where the new device can't be made and the context's own wasn't lost all
+ * goes on as before. Takes about as long as loading all surfaces. */
+ESP_API EspResult espRecreate(EspContext* context, const EspHostDevice* device);
+
 /* Gives back to the device what GPU memory is only kept for what comes: by itself a context keeps up to 256 MiB of it, 1 GiB
  * on a software device, as asking for it again costs time. For when nothing is to come soon: a pause, a menu, a level that has been loaded, a window at
  * rest. Waits for the GPU; what was recorded into the host's command buffers has to be submitted, as before espUpdate.
@@ -164,6 +177,7 @@ ESP_API const char* const* espRequiredExtensions(uint32_t* count);
 ESP_API const char* espLastError(const EspContext* context);
 ESP_API const char* espVersion(void);                             /* "0.1.0": the library's; static */
 ESP_API const char* espDeviceName(const EspContext* context);     /* lives as long as the context */
+ESP_API const char* espDriverName(const EspContext* context);     /* with its version, as the driver writes it; likewise */
 
 /* ---- Surfaces ----------------------------------------------------------------------------------------------- */
 
@@ -196,7 +210,7 @@ typedef struct EspSurfaceDef {
     ESP_STRUCT_SIZE(EspSurfaceDef);
     int groundOnly;              /* 1: as by espLoadGround */
     const char* name;            /* the file's path; with `bytes` only for messages, and may be NULL */
-    const void* bytes;           /* what espalier-bake wrote; NULL: it is read from the file */
+    const void* bytes;           /* what espalier-bake wrote, of which the context keeps a copy; NULL: it is read from the file */
     size_t size;                 /* of `bytes` */
     const EspTransform* place;   /* NULL: the identity */
 } EspSurfaceDef;
@@ -208,6 +222,17 @@ ESP_API EspResult espAddSurface(EspContext* context, const EspSurfaceDef* def, E
  * nearly all turns of a surface of scale 1). Only those grow again whose grammar asks for what has changed: `position`
  * and `height`, and if the surface has turned also `normal`, `heading`, `slope` and `angleTo`. */
 ESP_API EspResult espMoveSurface(EspContext* context, EspSurface surface, const EspTransform* place);
+/* Moves the world's origin by so many metres, for worlds that are wider than floats are precise: what stands stays where it
+ * is, and all positions that are given and taken from now on are seen from the new origin. So the eye of the next frame is
+ * the one before less `by`. Nothing is derived, and contacts aren't found anew; growth is bound anew in the next frame, and
+ * shadows are drawn anew, whose edges may shift by parts of a texel. Where surfaces stand is kept in double precision: an
+ * origin that comes back finds all as it was. Surfaces on their way and streamed ones that are away come where they belong. Grammars that ask for `position` or
+ * `height` see the new ones when they grow next. The origin goes at most 1e9 m along each axis.
+ * ESP_INVALID_ARGUMENT, and nothing moves: there is a town, a procedural graph, props or a site's map. */
+ESP_API EspResult espShiftOrigin(EspContext* context, const double by[3]);
+/* Hides a surface (hidden 1), as an editor does: it isn't drawn, casts no shadow, and rays of espPick and espPickPlant go
+ * through it; it stays ground, and what grows on it is seen. One that was streamed away and came back is shown. */
+ESP_API EspResult espHideSurface(EspContext* context, EspSurface surface, int hidden);
 /* Its seeds and layers go with it. In the next espUpdate only plants grow again that could get to it. */
 ESP_API EspResult espDestroySurface(EspContext* context, EspSurface surface);
 ESP_API EspResult espSurfaceInfo(const EspContext* context, EspSurface surface, EspSurfaceInfo* out);
@@ -330,10 +355,14 @@ ESP_API EspResult espSetSite(EspContext* context, const EspSiteDef* def);   /* N
 #endif
 
 #include "espalier_frames.h"
+#include "espalier_graphs.h"
+#include "espalier_loads.h"
+#include "espalier_nodes.h"
 #include "espalier_paint.h"
 #include "espalier_parts.h"
 #include "espalier_pass.h"
 #include "espalier_patterns.h"
 #include "espalier_plants.h"
 #include "espalier_roofs.h"
+#include "espalier_stream.h"
 #endif

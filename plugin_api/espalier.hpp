@@ -65,6 +65,9 @@ inline void setDefaults(EspLook& look) {
 inline void setDefaults(EspDrawDef& def) {
     (void)espDefaultDrawDef(&def);
 }
+inline void setDefaults(EspLoadingDef& def) {
+    (void)espDefaultLoadingDef(&def);
+}
 inline void setDefaults(EspPassFormat& format) {
     (void)espDefaultPassFormat(&format);
 }
@@ -85,6 +88,9 @@ inline void setDefaults(EspBrush& brush) {
 }
 inline void setDefaults(EspSeedDef& def) {
     (void)espDefaultSeedDef(&def);
+}
+inline void setDefaults(EspStreamingDef& def) {
+    (void)espDefaultStreamingDef(&def);
 }
 inline void setDefaults(EspTownDef& def) {
     (void)espDefaultTownDef(&def);
@@ -196,6 +202,8 @@ class Context {
         EspStroke stroke{};
         return owned<Stroke>(espBeginStroke(get(), &brush, &stroke), stroke);
     }
+    /* device: null for one of Espalier's own. */
+    Status recreate(const EspHostDevice* device = nullptr) { return done(espRecreate(get(), device)); }
     Status update() { return done(espUpdate(get())); }
     Status draw(const EspDrawDef& def) { return done(espDraw(get(), &def)); }
     Result<EspStats> stats() {

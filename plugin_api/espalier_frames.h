@@ -59,6 +59,12 @@ typedef enum EspView {
                                     singularity: warm of a positive index, blue of a negative one; no pieces */
 } EspView;
 
+typedef enum EspGround {
+    ESP_GROUND_NONE = 0,
+    ESP_GROUND_MEADOW = 1,       /* grass to the horizon, and hills there */
+    ESP_GROUND_STUDIO = 2        /* a neutral floor around all surfaces and houses, which goes over into the horizon's colour */
+} EspGround;
+
 typedef struct EspLook {         /* all numbers finite */
     ESP_STRUCT_SIZE(EspLook);
     float sunDirection[3];       /* towards the sun */
@@ -84,9 +90,10 @@ typedef struct EspLook {         /* all numbers finite */
     float lodPixels;       /* error allowed when choosing LOD, pixels; default 1 */
     float leafPixels;            /* leaves of at least so many pixels are all drawn, of smaller ones fewer and larger;
                                     beyond 8 fewer twigs, too; default 8 */
-    int ground;                  /* 1: a meadow to the horizon under it all, only to be looked at; default 0 */
+    int ground;                  /* EspGround: what lies under it all, only to be looked at; default none. Towns have a
+                                    meadow of their own */
     float groundLevel;           /* its height in the world, metres */
-    int groundOvergrows;         /* 1: its grass grows over what of models lies almost as low, some 9 cm; default 1 */
+    int groundOvergrows;         /* 1: a meadow's grass grows over what of models lies almost as low, some 9 cm; default 1 */
     float wind[3];               /* metres a second that the air moves, along the world's axes: leaves lean and flutter, stems
                                     and shadows keep still. Default 0. It may change from frame to frame: gusts of the host's own */
     float gusts;                 /* 0 to 1: how much of the wind comes in gusts that go over the plants; default 0.7 */
@@ -162,7 +169,8 @@ ESP_API EspResult espDropFrame(EspContext* context);
  * a host's scene, of another size, or one that failed has taken its place since. */
 ESP_API EspResult espReadPixels(EspContext* context, uint8_t* rgba, size_t sizeBytes);
 
-/* A camera that shows all surfaces and houses from the front right, and what is flat, as a town is, from further above. */
+/* A camera that shows all surfaces and houses from the front right, and what is flat, as a town is, from further above. Of
+ * houses that stand far apart it shows those that stand most densely, within at most two kilometres. */
 ESP_API EspResult espFrameAll(const EspContext* context, EspCamera* out);
 
 typedef struct EspStats {

@@ -94,7 +94,7 @@ ESP_API EspResult espDefaultBrush(EspBrush* out);   /* paints 1, half a metre in
 /* Several strokes may be open at a time, on unlike layers. */
 ESP_API EspResult espBeginStroke(EspContext* context, const EspBrush* brush, EspStroke* out);
 /* On the GPU, applied in order; the next espUpdate and espDraw see it. At most 65,536 dabs. They go 32 together: where
- * memory runs out, surfaces have those before, a town's layer may have all, and the stroke's record knows of them. */
+ * memory runs out, surfaces have those before, and the stroke's record knows of them; a town's layer has none. */
 ESP_API EspResult espStrokeDabs(EspContext* context, EspStroke stroke, const EspDab* dabs, uint32_t count);
 /* Waits for the GPU and keeps only the blocks that changed, or all that it has come to where memory is short. */
 ESP_API EspResult espEndStroke(EspContext* context, EspStroke stroke);
@@ -104,7 +104,7 @@ ESP_API EspResult espEndStroke(EspContext* context, EspStroke stroke);
 ESP_API EspResult espSwapStroke(EspContext* context, EspStroke stroke);
 /* Forgets the record; what is painted stays. An open stroke is ended by it. */
 ESP_API EspResult espDestroyStroke(EspContext* context, EspStroke stroke);
-ESP_API uint64_t espStrokeBytes(const EspContext* context, EspStroke stroke);   /* memory that it holds */
+ESP_API uint64_t espStrokeBytes(const EspContext* context, EspStroke stroke);   /* on the device and, as much again, on the host */
 /* 1: the record holds texels of this surface, or, of one of id 0, of the town: what a stroke that has ended changed there. */
 ESP_API int espStrokePainted(const EspContext* context, EspStroke stroke, EspSurface surface);
 /* Sets the whole layer, on all surfaces; out is an ended stroke. On failure the layer is as it was. A surface that isn't

@@ -61,6 +61,8 @@ ESP_API EspResult espPrepare(EspContext* context, const EspPassDef* def);
 /* Records the draws of the last espPrepare into a pass of its format that the host has begun, also in a secondary command
  * buffer that continues one. As often as wanted, until the next espPrepare, espDraw, espUpdate or change of the context;
  * where several views are drawn in one frame, each is prepared and recorded before the next is prepared.
+ * A host that records its buffers once, and submits them in each frame, prepares and records into each of them: they hold until
+ * the context changes, and as long as framesDone stays below their frames.
  * Viewport, scissor, cull mode, front face, pipeline, vertex and index buffers, push descriptors of set 0 and push constants aren't
  * what they were afterwards. ESP_INVALID_ARGUMENT: nothing has been prepared. */
 ESP_API EspResult espRecord(EspContext* context, void* commandBuffer);

@@ -65,6 +65,18 @@ ESP_API EspResult espFieldSingularities(EspContext* context, EspSurface surface,
 typedef enum EspGrammarKind { ESP_GRAMMAR_PLANTS = 0, ESP_GRAMMAR_ROOFS = 1, ESP_GRAMMAR_PATTERNS = 2 } EspGrammarKind;
 /* What a grammar makes. ESP_INVALID_ARGUMENT: there is no such grammar. */
 ESP_API EspResult espGrammarKind(const EspContext* context, EspGrammar grammar, EspGrammarKind* out);
+/* The words that the language of a kind of grammars has of its own, for editors that complete names: rule kinds, commands,
+ * functions, what is told of a place. index: below espWordCount, else ESP_INVALID_ARGUMENT. Static strings; usage: how the word
+ * is written, such as "min(a, b)", or "". */
+typedef struct EspWord {
+    ESP_STRUCT_SIZE(EspWord);
+    uint32_t reserved;           /* 0 */
+    const char* name;
+    const char* usage;
+} EspWord;
+ESP_API uint32_t espWordCount(EspGrammarKind kind);
+ESP_API EspResult espWord(EspGrammarKind kind, uint32_t index, EspWord* out);
+
 /* The fields that a grammar of patterns declares; the first guides its translations. The name lives as long as the
  * grammar isn't compiled anew. */
 ESP_API uint32_t espFieldCount(const EspContext* context, EspGrammar grammar);

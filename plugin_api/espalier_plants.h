@@ -24,6 +24,7 @@ ESP_API EspResult espDefaultSeedDef(EspSeedDef* out);
  * the twin is planted already, or a number isn't finite. */
 ESP_API EspResult espPlant(EspContext* context, const EspSeedDef* def, EspSeed* out);
 ESP_API EspResult espRemoveSeed(EspContext* context, EspSeed seed);
+/* All but those that procedural graphs planted. */
 ESP_API EspResult espRemoveAllSeeds(EspContext* context);
 
 typedef struct EspSeedInfo {
@@ -32,6 +33,9 @@ typedef struct EspSeedInfo {
     float position[3];        /* on the surface, world */
     float normal[3], direction[3];   /* unit, world; the direction is laid into the surface */
     int frozen;               /* 1: its plant stands as it is, see espFreezePlant */
+    int ofGraph;              /* 1: a procedural graph planted it (a Grow node), and takes it away. What a host saves of
+                                 seeds, it saves without these */
+    int hidden;               /* 1: see espHideSeed */
 } EspSeedInfo;
 
 ESP_API uint32_t espSeedCount(const EspContext* context);
@@ -41,6 +45,9 @@ ESP_API EspResult espSeedInfo(const EspContext* context, EspSeed seed, EspSeedIn
 /* As it was planted or last moved: planted by it again, the plant is the same to the bit, or, if its surface was moved since,
  * by rounding slightly another. symbol: "" or valid as long as the seed: for later it is copied. */
 ESP_API EspResult espSeedDef(const EspContext* context, EspSeed seed, EspSeedDef* out);
+/* Hides a seed's plant (hidden 1), as an editor does: nothing stands there, so nothing is drawn, picked or exported, until it
+ * is shown again (0) and is the same to the bit. A frozen plant stays frozen meanwhile. With the next espUpdate. */
+ESP_API EspResult espHideSeed(EspContext* context, EspSeed seed, int hidden);
 /* To where it would be planted at `position`; its plant keeps its random numbers. Without ground near, it doesn't grow. */
 ESP_API EspResult espMoveSeed(EspContext* context, EspSeed seed, const float position[3], const float direction[3]);
 /* twin: as in EspSeedDef. */
@@ -53,6 +60,33 @@ ESP_API EspResult espSetSeedParam(EspContext* context, EspSeed seed, const char*
 /* *count: 0 where the seed has no value of its own. */
 ESP_API EspResult espSeedParam(const EspContext* context, EspSeed seed, const char* name, float value[3],
                                uint32_t* count);
+
+/* ---- Looks -------------------------------------------------------------------------------------------------- */
+
+/* What a grammar of plants draws: some of "bark", "leaf", "pebble", "oval", "blossom" and "tuft", which Shape() names.
+ * Static strings. */
+ESP_API uint32_t espTerminalCount(const EspContext* context, EspGrammar grammar);
+ESP_API const char* espTerminalName(const EspContext* context, EspGrammar grammar, uint32_t index);
+
+/* How one kind of terminal of one grammar looks in place of EspContextDef::terminals. Begin with zeros: as shipped. */
+typedef struct EspTerminalLook {
+    ESP_STRUCT_SIZE(EspTerminalLook);
+    int coloured;             /* 1: `colour` counts. It multiplies a picture or mesh of the host's; the shipped picture it
+                                 gives this hue, as bright on average */
+    float colour[3];          /* linear, 0 to 1 */
+    uint32_t reserved;        /* 0 */
+    const char* mesh;         /* a file of meshes as espalier-bake --terminal writes it, not for bark; up to four variants of
+                                 four levels each. NULL: the shipped meshes */
+    const char* picture;      /* PNG or JPEG of up to 4,096 texels a side, in place of the meshes' own; what is more than half
+                                 transparent is cut out. Of bark and pebbles it tiles; other terminals without a mesh become
+                                 cards that show it, its lower edge at the stalk. NULL: the meshes' own */
+} EspTerminalLook;
+/* NULL: as shipped. Plants by this grammar get it with the next espUpdate; frozen ones keep theirs, as long as it is set. Kept
+ * when the grammar is compiled anew. ESP_INVALID_ARGUMENT: no such grammar of plants, no such terminal, a number out of
+ * range, or no room: five grammars may have a look of one kind, and all looks together a limited number of levels of
+ * detail. ESP_IO_FAILED, ESP_INVALID_CONTENT: of a file. Waits for the GPU. */
+ESP_API EspResult espSetTerminalLook(EspContext* context, EspGrammar grammar, const char* terminal,
+                                     const EspTerminalLook* look);
 
 /* ---- Plants ------------------------------------------------------------------------------------------------- */
 

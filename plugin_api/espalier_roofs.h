@@ -104,6 +104,8 @@ typedef struct EspHouseInfo {
     uint32_t edgeCount;      /* edges with something of their own */
     float boundsMin[3], boundsMax[3];            /* world */
     uint32_t ringCount;      /* the outer ring and courtyards, in this order */
+    int hidden;              /* 1: see espHideHouse */
+    uint32_t reserved;       /* 0 */
 } EspHouseInfo;
 
 ESP_API uint32_t espHouseCount(const EspContext* context);
@@ -135,6 +137,10 @@ typedef struct EspHouseDef {
 ESP_API EspResult espSetHouse(EspContext* context, uint32_t house, const EspHouseDef* def);
 /* Back to what the town was loaded with; does nothing where that is what stands. */
 ESP_API EspResult espResetHouse(EspContext* context, uint32_t house);
+/* Hides a house (hidden 1), as an editor does: walls and roof are neither drawn nor exported until it is shown again (0), and
+ * then they are the same to the bit. Whatever changes the house meanwhile is kept. It alone grows anew, in the next espUpdate;
+ * a town that is loaded shows all. INVALID_ARGUMENT: there is no such house. */
+ESP_API EspResult espHideHouse(EspContext* context, uint32_t house, int hidden);
 
 typedef struct EspRoofStats {
     ESP_STRUCT_SIZE(EspRoofStats);

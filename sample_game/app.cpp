@@ -17,8 +17,10 @@
 #include <utility>
 
 #include "plugin_api/espalier.hpp"
+#include "sample_game/additions.hpp"
 #include "sample_game/app_state.hpp"
 #include "sample_game/folder_list.hpp"
+#include "sample_game/graph_editor.hpp"
 #include "sample_game/panels.hpp"
 #include "tools/scene/picture.hpp"
 
@@ -47,8 +49,10 @@ void App::showUi() {
         showMenu(work_, session_);
         showPanel(work_);
         showGrammarWindow(work_);
+        showGraphs(work_);
         atlas_->show(work_);
         showLegend(work_);
+        showManualAndAbout(work_);
         showFigures(work_, host_->validationMessages(), host_->validation());
     }
     showStatus(work_, controls_->caught(), controls_->flying());
@@ -63,6 +67,12 @@ void App::screenshot(const std::string& path, const std::vector<uint8_t>& rgba, 
     if (espalier::scene::writePng(path, rgba.data(), width, height, work_.error))
         work_.message = "Written: " + wholePath(path);
     wake();
+}
+
+SceneImage::Margins App::margins(const Frame& frame) const {
+    const auto pixels = [](float share, uint32_t of) { return uint32_t(std::lround(share * float(of))); };
+    return {pixels(work_.shift(), frame.extent.width),
+            pixels(work_.dockUnits() / std::max(1.f, work_.window.y), frame.extent.height)};
 }
 
 bool App::drawFrame(bool moving, bool grew, bool last) {
@@ -94,16 +104,21 @@ bool App::drawFrame(bool moving, bool grew, bool last) {
     // While the camera moves, or a stroke goes on, on a slow device, less detail.
     const float scale =
         moving_.prepare(draw.look, moving && !last, work_.stats.drawMs, work_.layout.smallerWhileMoving);
-    const uint32_t left = uint32_t(std::lround(work_.shift() * float(frame->extent.width)));
+    const SceneImage::Margins margins = this->margins(*frame);
     // What draws a view is made when it is first shown, which may take seconds: the frame before says so.
     const bool announces = viewsSeen_.insert(draw.look.view).second && viewsSeen_.size() > 1 && !last;
     if (announces) {
         showUnderWay(work_, "Preparing this view ...");
-        image_->showAgain(*frame, left);
+        image_->showAgain(*frame, margins);
         work_.redraw = true;
         wake();
-    } else if (!image_->show(work_.context.get(), *frame, draw, left, scale, work_.redraw)) {
-        return fail(image_->error());
+    } else {
+        SceneImage::Wish wish{margins, scale, work_.redraw};
+        wish.coarse = moving_.hurried();
+        wish.fades = !last;
+        wish.refines = idle_ || options_.frames;
+        wish.now = glfwGetTime();
+        if (!image_->show(work_.context.get(), *frame, draw, wish)) return fail(image_->error());
     }
     if (image_->drew()) {
         work_.redraw = work_.readStats() && (work_.stats.modelsFading > 0 || work_.stats.shadowsBehind ||
@@ -226,25 +241,27 @@ bool App::frame(float seconds) {
         const EspCamera camera = work_.camera.camera();
         work_.perform(SetCamera{array(vec(camera.eye)), array(vec(camera.target)), camera.fovY});
     }
-    if (const std::string file = input_->takeDropped(); !file.empty() && !replays) {
+    if (const std::vector<std::string> files = input_->takeDropped(); !files.empty() && !replays) {
         if (!work_.editing) controls_->setEditing(true);  // where it can be asked about
         controls_->finishTools();
-        if (Replay::names(file) || espalier::scene::mayOpen(file, work_.error)) askToLeave(work_, session_, file);
+        takeDropped(work_, session_, files);
     }
+    if (!replays) playGraphs(work_, glfwGetTime());
     fadeNews();
     showUi();
     retitle();
     const bool grew = update();
     if (moving_.coarse() && !moved && !controls_->painting()) work_.redraw = true;
     ++frames_;
-    const bool hurried = moved || controls_->painting();
-    if (!drawFrame(hurried, grew, options_.frames && frames_ >= options_.frames)) return false;
+    const bool plays = work_.graphs.playing;
+    const bool hurried = moved || controls_->painting() || plays;
+    if (!drawFrame(hurried, grew || plays, options_.frames && frames_ >= options_.frames)) return false;
     session_.nextFrame(work_);
     work_.frameMs = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     noteTimes();
-    const bool held = ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() || toolTipWaits() || clickWaits() ||
-                      controls_->turning() || input_->gui.waiting();
-    if (moved || held || replays || wheel != 0 || !events.empty() || grew)
+    const bool held = image_->fading(glfwGetTime()) || ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive() ||
+                      toolTipWaits() || clickWaits() || controls_->turning() || input_->gui.waiting();
+    if (moved || held || replays || plays || wheel != 0 || !events.empty() || grew)
         wake();
     else if (awake_ > 0)
         --awake_;
@@ -279,9 +296,12 @@ bool App::loop() {
     heedEnd();
     double before = glfwGetTime();
     while (!closing() && !endAsked() && !(options_.frames && frames_ >= options_.frames)) {
-        // Asleep until the user does something, or it is time to look at the grammars' files.
-        if (awake_ > 0 || options_.frames) {
+        // Asleep until the user does something, or it is time to look at the grammars' files. Before that, the picture
+        // becomes as smooth as it can.
+        idle_ = awake_ == 0 && image_->refinable();
+        if (awake_ > 0 || idle_ || options_.frames) {
             glfwPollEvents();
+            if (idle_ && input_->pending()) wake(), idle_ = false;
         } else {
             const double asleep = glfwGetTime(), most = session_.background().busy() ? kLookAtWorkEvery : kLookEvery;
             glfwWaitEventsTimeout(most);
@@ -293,7 +313,7 @@ bool App::loop() {
         const float seconds = float(std::min(now - before, .5));
         before = now;
         if (session_.step(work_, now)) wake();
-        if (awake_ == 0 && !options_.frames) {
+        if (awake_ == 0 && !idle_ && !options_.frames) {
             if (rest_.due(now)) giveBack();
             continue;
         }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "tools/scene/scene.hpp"
 
@@ -9,9 +10,10 @@ namespace sample {
 
 struct AppOptions {
     espalier::scene::Request request;
-    int width = 1280, height = 720;  // of the window, in screen coordinates
-    bool sized = false;              // that was asked for: else the window is as it was last
-    float uiScale = 0;               // of letters and panels, 1: as for 96 dpi; 0: as the display says
+    std::vector<std::string> models;  // that come to the scene
+    int width = 1280, height = 720;   // of the window, in screen coordinates
+    bool sized = false;               // that was asked for: else the window is as it was last
+    float uiScale = 0;                // of letters and panels, 1: as for 96 dpi; 0: as the display says
     bool validation = false;
     uint64_t frames = 0;   // ends after so many, 0: when the user closes the window
     bool turn = false;     // turns the view in each of `frames`, and tells how long one takes

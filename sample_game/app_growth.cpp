@@ -53,6 +53,7 @@ bool App::update() {
     const bool known = work_.readStats();
     const bool plants = work_.stats.expansions != expansions, houses = work_.roofs.housesGrown != housesGrown;
     work_.noteGrown(plants);
+    if (grown == ESP_OK) bakeForGraphs();
     if (!known) return false;
     grownMs_ = (plants ? work_.stats.expandMs : 0) + (houses ? work_.roofs.expandMs : 0);
     if (grown == ESP_OK && plants && work_.stats.cut > 0) work_.message = kCut;
@@ -81,7 +82,7 @@ void App::showWaiting() {
     showUnderWay(work_, kGrowing);
     const std::optional<Frame> frame = host_->begin();
     if (!frame) return;
-    image_->showAgain(*frame, uint32_t(std::lround(work_.shift() * float(frame->extent.width))));
+    image_->showAgain(*frame, margins(*frame));
     ImGui::Render();
     if (ui_->draw(*frame, *ImGui::GetDrawData())) (void)host_->end(*frame);
 }

@@ -12,9 +12,12 @@
 #include <utility>
 
 #include "plugin_api/espalier.hpp"
+#include "sample_game/additions.hpp"
 #include "sample_game/app_state.hpp"
+#include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/settings.hpp"
+#include "tools/scene/scene_file.hpp"
 #include "tools/scene/user_folders.hpp"
 
 namespace sample {
@@ -30,6 +33,7 @@ bool App::fail(const std::string& message) {
 App::~App() {
     dropReloaded();
     atlas_.reset();
+    pictures_.reset();
     ui_.reset();
     image_.reset();
     work_.document.reset();
@@ -99,6 +103,9 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     work_.house.reset();
     work_.houseEdge.reset();
     atlas_->forget();
+    work_.graphs.open = 0;
+    work_.graphs.playing = false;
+    work_.graphs.nodes = work_.scene().surfaces.empty() && !work_.scene().graphs.empty();
     work_.plantGrammar = work_.openGrammar = work_.shownGrammar = 0;
     work_.brush.layer = work_.scene().layers.empty() ? "" : work_.scene().layers.front();
     work_.stats = {};
@@ -118,9 +125,9 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     return true;
 }
 
-// By what is open, which another name may have been saved under.
+// By what is open, which another name may have been saved under, and whether all of it is.
 void App::retitle() {
-    entitle("Espalier \u2014 " + session_.name(work_));
+    entitle("Espalier \u2014 " + session_.name(work_) + (session_.modified(work_) ? " *" : ""));
 }
 
 void App::entitle(const std::string& title) {
@@ -134,17 +141,23 @@ bool App::open() {
     ui_ = std::make_unique<UiRenderer>(*host_);
     image_ = std::make_unique<SceneImage>(*host_);
     atlas_ = std::make_unique<AtlasView>(*host_);
+    pictures_ = std::make_unique<ShownPictures>(*host_);
+    work_.pictureOf = [this](const std::string& file, float& aspect) { return pictures_->of(file, aspect); };
     if (!ui_->create()) return fail(ui_->error());
     std::string error;
+    if (!work_.layout.recent.empty()) beginOpeningIn(work_.layout.recent.front());
     if (!showOpening(options_.request.file)) return false;
     const bool run = Replay::names(options_.request.file);
     if (run && !replay_.read(options_.request.file, error)) return fail(error);
     if (run) options_.request.file = replay_.scene();
     if (!openDocument(options_.request, error)) return fail(error);
     work_.fitBrush();
+    noteRecent(options_.request.file);
     if (!layoutError_.empty()) work_.error = layoutError_;
     work_.editing = options_.editor;
     if (run) beginReplay();
+    addModels(work_, session_, options_.models);
+    if (options_.frames) session_.background().finish();
     session_.autosaveEvery = options_.autosave;
     if (options_.record.empty()) return true;
     bool records = false;
@@ -188,6 +201,13 @@ bool App::showOpening(const std::string& file, const std::string& part, float sh
            (host_->end(*frame) || fail(host_->error()));
 }
 
+// Neither what is there anyway nor what was recovered.
+void App::noteRecent(const std::string& file) {
+    const fs::path whole = wholePath(file);
+    const bool own = whole == emptyScene() || whole.filename() == espalier::scene::kAutosaveFile;
+    if (!layoutFile_.empty() && !own) work_.layout.noteRecent(whole.string());
+}
+
 // Asked for by a dialogue or dropped onto the window: what can't be opened leaves the old document.
 bool App::openNext() {
     const std::string file = std::exchange(session_.openNext, {});
@@ -197,6 +217,7 @@ bool App::openNext() {
     if ((!run || replay_.read(file, work_.error)) &&
         openDocument({run ? replay_.scene() : file, {}, {}, {}}, work_.error)) {
         work_.fitBrush();
+        noteRecent(file);
         if (run) beginReplay();
         return true;
     }

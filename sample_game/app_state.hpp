@@ -13,7 +13,9 @@
 #include "sample_game/replay.hpp"
 #include "sample_game/rest.hpp"
 #include "sample_game/scene_image.hpp"
+#include "sample_game/shown_pictures.hpp"
 #include "sample_game/ui_renderer.hpp"
+#include "tools/baking/graph_bakes.hpp"
 #include "tools/scene/moving.hpp"
 
 namespace sample {
@@ -45,14 +47,18 @@ class App {
     void entitle(const std::string& title);
     void showUi();
     bool update();
+    void bakeForGraphs();
+    void takeGraphBake(const espalier::baking::GraphBake& bake, const std::string& error);
     bool growing(uint64_t nodes);
     void showWaiting();
     void dropClicks();
     bool showOpening(const std::string& file, const std::string& part = {}, float share = 0);
+    SceneImage::Margins margins(const Frame& frame) const;
     bool drawFrame(bool moving, bool grew, bool last);
     void endReplay();
     void screenshot(const std::string& path, const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height);
     bool openNext();
+    void noteRecent(const std::string& file);
     void beginReplay();
     bool replay(std::vector<InputEvent>& events);
     bool closing();
@@ -76,6 +82,7 @@ class App {
     std::unique_ptr<SceneImage> image_;
     std::unique_ptr<UiRenderer> ui_;
     std::unique_ptr<AtlasView> atlas_;
+    std::unique_ptr<ShownPictures> pictures_;
     std::unique_ptr<Input> input_;
     std::string layoutFile_;   // of ImGui's windows
     std::string title_;        // of the window
@@ -93,6 +100,7 @@ class App {
 
     static constexpr int kFramesAfterChange = 3;  // ImGui settles within two
     int awake_ = kFramesAfterChange;
+    bool idle_ = false;  // nothing but that the picture becomes smoother
     uint64_t frames_ = 0;
     std::optional<espalier::document::StrokeBegin> limiting_;  // whose limits the scene's picture shows
     Rest rest_;
@@ -106,8 +114,9 @@ class App {
         std::chrono::steady_clock::time_point began;
         size_t events = 0;  // that waited then
         bool underWay = false, told = false;
-    } growth_;                   // of update()
-    std::string growthError_;    // of the last frame
+    } growth_;                 // of update()
+    std::string growthError_;  // of the last frame
+    bool bakingForGraph_ = false;
     bool timesAwaited_ = false;  // of the last picture
     GrowthPace pace_;
     float themeScale_ = 0;

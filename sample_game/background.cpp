@@ -72,6 +72,11 @@ void Background::giveWay() {
             ++i;
 }
 
+void Background::leave() {
+    for (Job& job : jobs_) job.cancelled = job.cancelled || job.leavesWithDocument;
+    if (work_ && jobs_.front().cancelled) work_->cancel();
+}
+
 void Background::finish() {
     std::string told;
     while (busy()) {

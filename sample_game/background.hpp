@@ -16,7 +16,8 @@ class Background {
         std::string title;  // such as "Saving garden"; empty: nobody sees it, and it gives way to whatever is asked for
         std::function<espalier::document::Work::Plan()> plan;  // of the document as it is when its turn comes
         std::function<void(const espalier::document::Work&)> ended;
-        bool cancelled = false;  // before its turn has come
+        bool cancelled = false;           // before its turn has come
+        bool leavesWithDocument = false;  // it brings something to the document, and is called off with it
     };
     // A job that waits and has the same title is what was asked for now.
     void ask(Job job);
@@ -27,6 +28,7 @@ class Background {
     void cancel();      // what is under way
     void cancelLast();  // what was asked for last, under way or not
     void giveWay();     // what nobody sees
+    void leave();       // the document goes: what would bring something to it is called off
     void finish();      // all of it, waiting
     bool busy() const { return !jobs_.empty(); }
     bool started() const { return work_ != nullptr; }

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "sample_game/additions.hpp"
+#include "sample_game/graph_editor.hpp"
 #include "sample_game/panels.hpp"
 #include "tools/scene/layers.hpp"
 
@@ -26,6 +28,7 @@ void Controls::catchMouse(bool caught) {
 void Controls::cancelTools() {
     brush_.cancel(work_);
     seeds_.cancel(work_);
+    path_.cancel();
     houses_.cancel(work_);
     fields_.cancel(work_);
     noteTools();
@@ -38,6 +41,8 @@ bool Controls::takeBackDrag() {
         brush_.takeBack(work_);
     else if (seeds_.dragging())
         seeds_.cancel(work_);
+    else if (path_.dragging())
+        path_.cancel();
     else if (houses_.dragging())
         houses_.cancel(work_);
     else if (fields_.dragging())
@@ -50,6 +55,7 @@ bool Controls::takeBackDrag() {
 void Controls::finishTools() {
     brush_.cancel(work_);  // keeps what is painted
     seeds_.finish(work_);
+    path_.cancel();
     houses_.finish(work_);
     fields_.finish();
     finishDrag();
@@ -90,13 +96,18 @@ void Controls::takeKey(const KeyEvent& event) {
     if (key == GLFW_KEY_F4) work_.showGrammar(!work_.layout.grammar, work_.shownGrammar);
     if (key == GLFW_KEY_F5) work_.showAtlas(!work_.layout.atlas);
     if (key == GLFW_KEY_F12) work_.screenshot = true, work_.message.clear();  // the last one's isn't in the picture
+    if (key == GLFW_KEY_F6) return showNodes(work_, !work_.graphs.nodes);
+    if (takeNodeKey(work_, event) || takeTimeKey(work_, event)) return;
+    if (takeBookmarkKey(event)) return;
     if (control && takeViewKey(event)) return;
     if (control) {
         // A stroke, a drag or what G has begun ends before what it has done is saved, written or left.
-        if (key == GLFW_KEY_Q || key == GLFW_KEY_S || key == GLFW_KEY_O || key == GLFW_KEY_E) finishTools();
+        const int ends[] = {GLFW_KEY_Q, GLFW_KEY_S, GLFW_KEY_O, GLFW_KEY_E, GLFW_KEY_N};
+        if (std::ranges::find(ends, key) != std::end(ends)) finishTools();
         if (key == GLFW_KEY_Q) askToQuit();
         if (key == GLFW_KEY_S) askToSave(work_, session_, shift);
         if (key == GLFW_KEY_O) askToOpen();
+        if (key == GLFW_KEY_N) askToLeave(work_, session_, emptyScene());
         if (key == GLFW_KEY_E && !work_.brush.layer.empty()) askForLayer(work_.brush.layer, false);
         if (key == GLFW_KEY_Z && takeBackDrag()) return;
         if (toolBusy()) return;
@@ -129,7 +140,19 @@ void Controls::takeKey(const KeyEvent& event) {
         return;
     }
     if (takeViewKey(event) || navigation_.dragging()) return;  // letters fly
-    if (!seeds_.dragging() && !houses_.dragging() && !fields_.dragging()) takeToolKey(event);
+    if (!seeds_.dragging() && !path_.dragging() && !houses_.dragging() && !fields_.dragging()) takeToolKey(event);
+}
+
+// Digits of the row: with Ctrl they keep the view, with Shift they show what was kept.
+bool Controls::takeBookmarkKey(const KeyEvent& event) {
+    const int digit = event.key - GLFW_KEY_0;
+    const bool control = event.mods & GLFW_MOD_CONTROL, shift = event.mods & GLFW_MOD_SHIFT;
+    if (!work_.editing || control == shift || digit < 1 || digit > 9) return false;
+    if (control)
+        work_.keepBookmark(uint32_t(digit));
+    else if (work_.lookFromBookmark(uint32_t(digit)))
+        navigation_.moved();
+    return true;
 }
 
 // The views of Blender's number pad.
@@ -143,7 +166,7 @@ bool Controls::takeViewKey(const KeyEvent& event) {
                                   {GLFW_KEY_KP_3, kQuarter, 0, -kQuarter, 0},
                                   {GLFW_KEY_KP_7, 0, -kQuarter, 0, kQuarter}};
     const auto view = std::ranges::find(kViewKeys, event.key, &View::key);
-    constexpr int kTurns[] = {GLFW_KEY_KP_2, GLFW_KEY_KP_4,   GLFW_KEY_KP_6,
+    constexpr int kTurns[] = {GLFW_KEY_KP_2, GLFW_KEY_KP_4,   GLFW_KEY_KP_5,       GLFW_KEY_KP_6,
                               GLFW_KEY_KP_8, GLFW_KEY_KP_ADD, GLFW_KEY_KP_SUBTRACT};
     if (view != std::end(kViewKeys) || std::ranges::find(kTurns, event.key) != std::end(kTurns)) navigation_.aim(work_);
     const bool other = event.mods & GLFW_MOD_CONTROL;
@@ -155,6 +178,8 @@ bool Controls::takeViewKey(const KeyEvent& event) {
         work_.camera.turnBy(0, event.key == GLFW_KEY_KP_8 ? -kStep : kStep);
     else if (event.key == GLFW_KEY_KP_ADD || event.key == GLFW_KEY_KP_SUBTRACT)
         work_.camera.zoom(event.key == GLFW_KEY_KP_ADD ? 1 : -1);
+    else if (event.key == GLFW_KEY_KP_5)
+        work_.camera.toggleFlat();
     else if (event.key == GLFW_KEY_KP_0)
         work_.lookFromStart();
     else if (event.key == GLFW_KEY_KP_DECIMAL || event.key == GLFW_KEY_PERIOD)
@@ -165,13 +190,31 @@ bool Controls::takeViewKey(const KeyEvent& event) {
     return true;
 }
 
+// H hides what is chosen as in Blender; without that it is the key of the tool for houses.
+bool Controls::takeHideKey(const KeyEvent& event) {
+    const bool chosen =
+        (work_.tool == Tool::seeds && !work_.selected.empty()) || (work_.tool == Tool::houses && work_.house);
+    if (event.mods & GLFW_MOD_ALT)
+        work_.showAll();
+    else if (event.mods & GLFW_MOD_SHIFT)
+        work_.isolateChosen();
+    else if (chosen)
+        work_.hideChosen();
+    else
+        return false;
+    return true;
+}
+
 void Controls::takeToolKey(const KeyEvent& event) {
     const int key = event.key;
     if (key == GLFW_KEY_Q) chooseTool(Tool::look);
     if (key == GLFW_KEY_B) chooseTool(Tool::paint);
     if (key == GLFW_KEY_S) chooseTool(Tool::seeds);
+    if (key == GLFW_KEY_T) chooseTool(Tool::path);
     if (key == GLFW_KEY_P) chooseTool(Tool::branch);
-    if (key == GLFW_KEY_H) chooseTool(Tool::houses);
+    if (key == GLFW_KEY_H && !takeHideKey(event)) chooseTool(Tool::houses);
+    if (key == GLFW_KEY_KP_DIVIDE || key == GLFW_KEY_SLASH)
+        work_.chosen().empty() && work_.anyHidden() ? work_.showAll() : work_.isolateChosen();
     if (key == GLFW_KEY_E) chooseTool(Tool::fields);
     const bool paints = work_.tool == Tool::paint;
     if (paints && !brush_.painting() && !brush_.sizing()) {  // a stroke goes on as it began
@@ -194,6 +237,7 @@ void Controls::takeToolKey(const KeyEvent& event) {
     if (work_.tool == Tool::branch && key == GLFW_KEY_LEFT_BRACKET) work_.pickParent();
     if (work_.tool == Tool::houses && removes) houses_.removeCorner(work_);
     if (work_.tool == Tool::fields && removes) fields_.remove(work_);
+    if (work_.tool == Tool::path && removes) path_.removePoint(work_);
     if (work_.tool == Tool::seeds) {
         if (removes) seeds_.remove(work_);
         if (key == GLFW_KEY_A && (event.mods & GLFW_MOD_ALT))
@@ -211,7 +255,8 @@ void Controls::takeToolKey(const KeyEvent& event) {
 }
 
 bool Controls::toolBusy() const {
-    return brush_.painting() || brush_.sizing() || seeds_.dragging() || houses_.dragging() || fields_.dragging();
+    return brush_.painting() || brush_.sizing() || seeds_.dragging() || path_.dragging() || houses_.dragging() ||
+           fields_.dragging();
 }
 
 bool Controls::panelTakes(const PointerEvent& event) {
@@ -239,6 +284,7 @@ void Controls::takePointer(const PointerEvent& event) {
     if (!work_.editing || panelButtons_ > 0) return;
     if (work_.tool == Tool::paint) brush_.take(work_, event);
     if (work_.tool == Tool::seeds) seeds_.take(work_, event);
+    if (work_.tool == Tool::path) path_.take(work_, event);
     if (work_.tool == Tool::houses) houses_.take(work_, event);
     if (work_.tool == Tool::fields) fields_.take(work_, event);
     if (work_.tool == Tool::branch && pressed) work_.pickBranch({event.x, event.y});
@@ -268,7 +314,8 @@ bool heeded(const KeyEvent& event) {
     const int key = event.key;
     const bool history = (event.mods & GLFW_MOD_CONTROL) && (key == GLFW_KEY_Z || key == GLFW_KEY_Y);
     const bool numpad = key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_EQUAL;
-    return !event.repeated || history || numpad || key == GLFW_KEY_LEFT_BRACKET || key == GLFW_KEY_RIGHT_BRACKET;
+    return !event.repeated || history || numpad || key == GLFW_KEY_LEFT || key == GLFW_KEY_RIGHT ||
+           key == GLFW_KEY_LEFT_BRACKET || key == GLFW_KEY_RIGHT_BRACKET;
 }
 
 }  // namespace
@@ -305,6 +352,7 @@ void Controls::showTool(int mods) {
     hover();
     if (work_.tool == Tool::paint) brush_.draw(work_, mods);
     if (work_.tool == Tool::seeds) seeds_.draw(work_);
+    if (work_.tool == Tool::path) path_.draw(work_);
     if (work_.tool == Tool::houses) houses_.draw(work_);
     if (work_.tool == Tool::fields) fields_.draw(work_);
     if (work_.tool == Tool::branch) showWalk(work_);

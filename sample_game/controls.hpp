@@ -6,6 +6,7 @@
 #include "sample_game/field_tool.hpp"
 #include "sample_game/house_tool.hpp"
 #include "sample_game/navigation.hpp"
+#include "sample_game/path_tool.hpp"
 #include "sample_game/seed_tool.hpp"
 #include "sample_game/session.hpp"
 
@@ -34,6 +35,8 @@ class Controls {
 
   private:
     void takeKey(const KeyEvent& key);
+    bool takeBookmarkKey(const KeyEvent& event);
+    bool takeHideKey(const KeyEvent& event);
     bool takeViewKey(const KeyEvent& key);  // false: it is none
     void takeToolKey(const KeyEvent& key);
     void takePointer(const PointerEvent& event);
@@ -53,6 +56,7 @@ class Controls {
     Navigation navigation_;
     BrushTool brush_;
     SeedTool seeds_;
+    PathTool path_;
     HouseTool houses_;
     FieldTool fields_;
     uint32_t panelButtons_ = 0;  // bits: those that were pressed over a panel and are down

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
@@ -58,7 +59,7 @@ bool showFolder(const PathQuestion& question) {
     const std::string typed = expanded(question.path.data());
     if (shown.typed != typed || ImGui::GetTime() > shown.read + 2)
         shown = {typed, ImGui::GetTime(), listFolder(typed, question.endings)};
-    bool taken = false;
+    bool answered = false;
     const std::string whole = wholePath(typed.substr(0, typed.rfind('/') + 1));
     say("In " + whole, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     // Rows, about, of what else the dialogue shows.
@@ -71,13 +72,27 @@ bool showFolder(const PathQuestion& question) {
             const std::string text = known ? entry.name + "/   project" : entry.name;
             const ImGuiSelectableFlags flags =
                 ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups;
-            if (!ImGui::Selectable(text.c_str(), entry.path == typed, flags)) continue;
+            const bool taken = ImGui::Selectable(text.c_str(), entry.path == typed, flags);
+            if (!entry.detail.empty()) {
+                ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(entry.detail.c_str()).x);
+                ImGui::TextDisabled("%s", entry.detail.c_str());
+            }
+            if (!taken) continue;
             const bool enters = entry.kind == FolderEntry::folder || (known && !question.projects);
             put(question.path, known && enters ? entry.path + "/" : entry.path);
-            taken = !enters && ImGui::IsMouseDoubleClicked(0);
+            answered = !enters && ImGui::IsMouseDoubleClicked(0);
         }
     ImGui::EndChild();
-    return taken;
+    return answered;
+}
+
+void makeFolder(Workspace& work, PathText& path) {
+    std::error_code failed;
+    const std::string folder = wholePath(expanded(path.data()));
+    std::filesystem::create_directories(folder, failed);
+    if (!failed) return put(path, folder + "/");
+    work.error = folder + ": can't be made: " + failed.message();
+    dialogues().turn = turnOf(work, false);
 }
 
 // Whether it is told to act after all: what would go by it is asked about once for each path.
@@ -155,6 +170,11 @@ void askPath(Workspace& work, Session& session, const PathQuestion& question,
     }
     confirmed = doubted(question, confirmed && path[0]);
     ImGui::SameLine();
+    if (question.doubts && !waits) {
+        if (ImGui::Button("New folder")) makeFolder(work, path);
+        toolTip("Makes the folder that is typed, and goes into it");
+        ImGui::SameLine();
+    }
     const bool cancelled = ImGui::Button("Cancel") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
     if (showTurn(session.background(), confirmed)) {
         work.error.clear();

@@ -29,7 +29,7 @@ struct Dialogues {
     int openings = 0;      // each time the whole path is marked, so that it can be typed over
     std::string unsaved;   // why saving has failed while another one was open
     bool leaves = false;   // for what is next, as soon as nothing is under way
-    PathText project{}, file{}, run{}, picture{}, grown{};
+    PathText project{}, file{}, model{}, grammar{}, run{}, picture{}, grown{};
     std::string layer;                // of the picture
     std::optional<std::string> next;  // what is opened once this is saved or given up; "": nothing, the program ends
 };
@@ -69,6 +69,7 @@ void askElsewhere(Workspace& work, const Session& session);
 // Each laid out while it is open.
 void projectDialogues(Workspace& work, Session& session);  // save, open, leave, recover
 void layerDialogues(Workspace& work, Session& session);    // pictures of layers, out and in
+void lookDialogues(Workspace& work, Session& session);     // a leaf's model, its picture
 void exportDialogue(Workspace& work, Session& session);    // what grows, as glTF
 void runDialogues(Workspace& work, Session& session);      // record, replay
 

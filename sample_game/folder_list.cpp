@@ -1,8 +1,12 @@
 // A typed path -> what lies in its folder.
 #include "sample_game/folder_list.hpp"
 
+#include <sys/stat.h>
+
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <tuple>
 
@@ -11,6 +15,30 @@
 namespace sample {
 
 namespace fs = std::filesystem;
+
+std::string sizeInWords(uint64_t bytes) {
+    constexpr const char* kUnits[] = {"B", "KB", "MB", "GB", "TB"};
+    size_t unit = 0;
+    double size = double(bytes);
+    while (size >= 999.5 && unit + 1 < std::size(kUnits)) size /= 1000, ++unit;
+    char text[32];
+    std::snprintf(text, sizeof text, unit > 0 && size < 9.95 ? "%.1f %s" : "%.0f %s", size, kUnits[unit]);
+    return text;
+}
+
+namespace {
+
+std::string detailOf(const fs::path& path) {
+    struct stat info {};
+    std::tm when{};
+    char date[32];
+    if (::stat(path.c_str(), &info) != 0 || !::localtime_r(&info.st_mtime, &when) ||
+        std::strftime(date, sizeof date, "%Y-%m-%d %H:%M", &when) == 0)
+        return {};
+    return S_ISREG(info.st_mode) ? sizeInWords(uint64_t(info.st_size)) + "   " + date : date;
+}
+
+}  // namespace
 
 std::vector<FolderEntry> listFolder(const std::string& typed, const std::vector<std::string>& endings) {
     constexpr size_t kMost = 400;
@@ -37,6 +65,7 @@ std::vector<FolderEntry> listFolder(const std::string& typed, const std::vector<
         return std::tuple(a.kind == FolderEntry::file, a.name) < std::tuple(b.kind == FolderEntry::file, b.name);
     });
     if (found.size() > kMost) found.resize(kMost);
+    for (FolderEntry& entry : found) entry.detail = detailOf(before + entry.name);
     const fs::path here = wholePath(before);
     if (here.has_relative_path()) {
         const std::string above = here.parent_path().string();

@@ -2,6 +2,7 @@
 
 // What can be clicked instead of typing a path.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,16 @@ struct FolderEntry {
     std::string
         path;  // as it would be typed: of folders with a slash at the end, which leads into them; not of projects
     Kind kind;
+    std::string detail = {};  // when it was written and, of a file, how large it is; empty: that isn't known
 };
 
 // Of the folder that `typed` names or lies in; "" and names without a slash: of the current one. Folders before files,
 // each by name; hidden ones and files that end otherwise than `endings` are left out, and all beyond the first 400.
 // A folder that can't be read has the one above it only.
 std::vector<FolderEntry> listFolder(const std::string& typed, const std::vector<std::string>& endings);
+
+// "640 B", "12 KB", "3.4 MB": in powers of 1000.
+std::string sizeInWords(uint64_t bytes);
 
 // A path as a shell takes it: ~ and what begins with ~/ lie in the user's folder.
 std::string expanded(const std::string& typed);

@@ -3,10 +3,15 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "sample_game/grammar_colours.hpp"
 #include "sample_game/grammar_files.hpp"
+#include "sample_game/grammar_offer.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/remarks.hpp"
 #include "sample_game/theme.hpp"
@@ -21,10 +26,13 @@ struct TextState {
     const std::string* outside = nullptr;  // what it is to hold instead
     int cursorLine = 0, scrolledLine = -1;
     float cursorX = 0, scrolledX = -1;  // within the line
+    int foundLine = 0;                  // by the field above the text; from 1
     int wantedLine = 0;                 // is to be seen; from 1, 0: none
     bool wanted = false;                // the cursor is to be in it
     float changedAt = -1e9f;
     uint32_t gesture = 0;
+    size_t cursor = 0;  // bytes before it
+    Offer offer;
 };
 
 int onEdit(ImGuiInputTextCallbackData* data) {
@@ -32,6 +40,8 @@ int onEdit(ImGuiInputTextCallbackData* data) {
     if (data->EventFlag == ImGuiInputTextFlags_CallbackResize) {
         state.shown.resize(size_t(data->BufTextLen));
         data->Buf = state.shown.data();
+    } else if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
+        state.offer.take(*data);
     } else {
         if (state.outside) {
             // The cursor stays where it is, or with what stands behind the change.
@@ -46,6 +56,7 @@ int onEdit(ImGuiInputTextCallbackData* data) {
         }
         const char *text = data->Buf, *cursor = text + data->CursorPos, *begin = cursor;
         while (begin > text && begin[-1] != '\n') --begin;
+        state.cursor = size_t(data->CursorPos);
         state.cursorLine = int(std::count(text, cursor, '\n'));
         state.cursorX = ImGui::CalcTextSize(begin, cursor).x;
     }
@@ -92,8 +103,24 @@ void lineNumbers(int lines, const std::vector<Remark>& remarks, ImVec2 place, Im
     ImGui::PopClipRect();
 }
 
+// Return goes to the next line that holds what is typed.
+void findField(Workspace& work, const std::string& text, TextState& state) {
+    static char wanted[64] = "";
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::InputTextWithHint("##findText", "Find", wanted, sizeof wanted, ImGuiInputTextFlags_EnterReturnsTrue)) {
+        const int line = findLine(text, wanted, state.foundLine);
+        if (line > 0)
+            state.wantedLine = state.foundLine = line;
+        else if (wanted[0])
+            work.say(std::string("Not in the text: ") + wanted);
+        ImGui::SetKeyboardFocusHere(-1);  // for the next one
+    }
+    toolTip("Return goes to the next line that holds this");
+}
+
 // Above the text: its way to the file and back.
-void fileRow(Workspace& work, const std::string& file, const std::string* inFile) {
+void fileRow(Workspace& work, const std::string& file, const std::string* inFile, TextState& state) {
     const auto& grammar = work.scene().grammars[work.openGrammar];
     ImGui::BeginDisabled(inFile && sameText(*inFile, grammar.text));
     if (ImGui::Button("Write to file") && writeGrammar(grammar.file, grammar.text, work.error)) {
@@ -112,6 +139,7 @@ void fileRow(Workspace& work, const std::string& file, const std::string* inFile
     toolTip("Gives up what was typed here");
     ImGui::EndDisabled();
     ImGui::EndDisabled();
+    findField(work, grammar.text, state);
 }
 
 // Below the text: whether it compiles, and what is to be said of it; a click on that goes to its line.
@@ -149,6 +177,52 @@ void followCursor(TextState& state, float line) {
     if (x + 2 * line > ImGui::GetScrollX() + wide) ImGui::SetScrollX(x + 2 * line - wide);
 }
 
+ImU32 colourOf(TokenKind kind) {
+    switch (kind) {
+        case TokenKind::comment:
+            return ImGui::GetColorU32(ImGuiCol_TextDisabled);
+        case TokenKind::word:
+            return ImGui::GetColorU32(kGood);
+        case TokenKind::name:
+            return IM_COL32(240, 214, 140, 255);
+        case TokenKind::number:
+            return IM_COL32(150, 200, 245, 255);
+        case TokenKind::text:
+            return IM_COL32(240, 165, 115, 255);
+        case TokenKind::plain:
+            break;
+    }
+    return ImGui::GetColorU32(ImGuiCol_Text);
+}
+
+// Below the widget, which lets its own letters and cursor through to these: ImGui's are of one colour.
+void drawText(const TextState& state, ImVec2 at, ImVec2 size, bool typing) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    const float high = ImGui::GetFontSize(), left = at.x + ImGui::GetStyle().FramePadding.x;
+    float y = at.y + ImGui::GetStyle().FramePadding.y;
+    const float cursorY = y + high * float(state.cursorLine);
+    const ImVec2 low = list.GetClipRectMin(), top = list.GetClipRectMax();
+    bool inComment = false;
+    const std::string_view text = state.shown;
+    for (size_t begin = 0; begin < text.size() && y < top.y; y += high) {
+        const size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string_view line = text.substr(begin, end - begin);
+        begin = end + 1;
+        const std::vector<Token> tokens = tokensOf(line, inComment);  // also of lines that aren't seen: remarks go on
+        if (y + high < low.y) continue;
+        for (const Token& token : tokens) {
+            const char* from = line.data() + token.begin;
+            const float x = left + ImGui::CalcTextSize(line.data(), from).x;
+            list.AddText({x, y}, colourOf(token.kind), from, from + token.length);
+        }
+    }
+    const bool lit = std::fmod(ImGui::GetTime(), 1.2) < .8;
+    if (typing && lit)
+        list.AddLine({left + state.cursorX, cursorY}, {left + state.cursorX, cursorY + high},
+                     ImGui::GetColorU32(ImGuiCol_Text));
+}
+
 // The text that is shown becomes the grammar's as it is typed.
 void editText(Workspace& work, int lines, TextState& state) {
     const auto& grammar = work.scene().grammars[work.openGrammar];
@@ -157,17 +231,29 @@ void editText(Workspace& work, int lines, TextState& state) {
     const ImVec2 size{std::max(ImGui::CalcTextSize(state.shown.c_str()).x + 2 * line, room.x),
                       std::max(line * float(lines + 1) + 2 * ImGui::GetStyle().FramePadding.y, room.y)};
     if (state.wantedLine) ImGui::SetScrollY(line * float(std::max(0, std::exchange(state.wantedLine, 0) - 3)));
-    const ImGuiInputTextFlags flags = ImGuiInputTextFlags_AllowTabInput | ImGuiInputTextFlags_CallbackResize |
-                                      ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo;
+    const ImGuiInputTextFlags tab =
+        state.offer.open() ? ImGuiInputTextFlags_CallbackCompletion : ImGuiInputTextFlags_AllowTabInput;
+    const ImGuiInputTextFlags flags =
+        tab | ImGuiInputTextFlags_CallbackResize | ImGuiInputTextFlags_CallbackAlways | ImGuiInputTextFlags_NoUndoRedo;
     ImGui::PushID(int(work.openGrammar));
     if (std::exchange(state.wanted, false)) {  // as SetKeyboardFocusHere, which would also scroll to the top
         ImGuiContext& gui = *ImGui::GetCurrentContext();
         gui.NavNextActivateId = ImGui::GetID("##grammar");
         gui.NavNextActivateFlags = ImGuiActivateFlags_PreferInput | ImGuiActivateFlags_TryToPreserveState;
     }
+    const ImGuiContext& gui = *ImGui::GetCurrentContext();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    drawText(state, at, size, gui.ActiveId != 0 && gui.ActiveId == ImGui::GetID("##grammar"));
+    const ImVec4 none{0, 0, 0, 0};
+    ImGui::PushStyleColor(ImGuiCol_Text, none);
+    ImGui::PushStyleColor(ImGuiCol_FrameBg, none);
     const bool changed =
         ImGui::InputTextMultiline("##grammar", state.shown.data(), state.shown.size() + 1, size, flags, onEdit, &state);
+    ImGui::PopStyleColor(2);
     ImGui::PopID();
+    state.offer.follow(work, state.shown, state.cursor, ImGui::IsItemActive(), changed && !state.outside);
+    const ImVec2 pad = ImGui::GetStyle().FramePadding;
+    state.offer.draw(work, {at.x + pad.x + state.cursorX, at.y + pad.y + line * float(state.cursorLine + 1)});
     if (ImGui::IsItemActive()) followCursor(state, line);
     if (ImGui::IsItemActive()) takeUndoKeys(work, state);
     // Escape leaves the text. ImGui would take back all that was typed since it was clicked at.
@@ -224,7 +310,7 @@ void showGrammarWindow(Workspace& work) {
         grammarName(work.scene(), work.openGrammar) + (differs ? "   differs from " + file : "") + "###grammar";
     if (beginWindow(work, title.c_str(), &work.layout.grammar, {work.window.x - 600 * s, 60 * s}, {580 * s, 520 * s})) {
         focused = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
-        fileRow(work, file, inFile);
+        fileRow(work, file, inFile, state);
         const std::vector<Remark> remarks = remarksOf(grammar);
         // Undo and files change the text from outside, also while the cursor is in it: the widget has a copy then.
         const std::string outside = grammar.text;

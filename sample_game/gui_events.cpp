@@ -13,6 +13,7 @@
 #include <iterator>
 #include <utility>
 
+#include "sample_game/graph_editor.hpp"
 #include "sample_game/panels.hpp"
 
 namespace sample {
@@ -141,7 +142,9 @@ bool GuiEvents::tell(const Key& key, Told& told, std::vector<InputEvent>& taken)
     if (key.action == GLFW_RELEASE) return true;
     taken.push_back(key.event);
     told.handed = true;
-    told.asks = !key.event.repeated && asks(code, mods);
+    told.asks = !key.event.repeated &&
+                (asks(code, mods) ||
+                 asksForNode(code, mods & GLFW_MOD_CONTROL, mods & GLFW_MOD_SHIFT, key.event.x, key.event.y));
     return true;
 }
 
@@ -171,7 +174,8 @@ void GuiEvents::dropPresses(size_t behind) {
 void GuiEvents::feed(std::vector<InputEvent>& taken) {
     ImGuiIO& io = ImGui::GetIO();
     const ImGuiContext& gui = *ImGui::GetCurrentContext();
-    Told told{.typing = gui.WantTextInputNextFrame > 0 || !gui.OpenPopupStack.empty(), .awaited = awaitsText()};
+    Told told{.typing = gui.WantTextInputNextFrame > 0 || !gui.OpenPopupStack.empty(),
+              .awaited = awaitsText() || nodeListAwaits()};
     // A dialogue whose list is held takes no text before it is let go, which may come behind a key.
     if (std::ranges::count(buttons_, true) > 0) told.awaited = false;
     told.waited = std::exchange(waited_, false);

@@ -100,7 +100,7 @@ std::optional<HouseHit> Workspace::meetHouse(const Ray& ray, float before, bool 
         for (uint32_t i = 0; i < espHouseCount(context.get()); ++i) {
             EspHouseInfo info;
             float first = 0, last = 0;
-            if (espHouseInfo(context.get(), i, &info) != ESP_OK ||
+            if (espHouseInfo(context.get(), i, &info) != ESP_OK || info.hidden ||
                 !crossBox(ray, info.boundsMin, info.boundsMax, first, last) || first > best.distance)
                 continue;
             const float along = meet(ray, houseNow(context.get(), i), info, sloped);
@@ -116,7 +116,7 @@ std::vector<bool> Workspace::hidden(const std::vector<glm::vec3>& points) const 
     for (const glm::vec3& point : points) low = glm::min(low, point), high = glm::max(high, point);
     std::vector<std::pair<House, EspHouseInfo>> between;
     for (uint32_t i = 0; i < espHouseCount(context.get()); ++i)
-        if (EspHouseInfo info; espHouseInfo(context.get(), i, &info) == ESP_OK &&
+        if (EspHouseInfo info; espHouseInfo(context.get(), i, &info) == ESP_OK && !info.hidden &&
                                glm::all(glm::lessThanEqual(vec(info.boundsMin), high)) &&
                                glm::all(glm::greaterThanEqual(vec(info.boundsMax), low)))
             between.emplace_back(houseNow(context.get(), i), info);

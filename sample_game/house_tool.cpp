@@ -175,7 +175,7 @@ void HouseTool::dragTo(Workspace& work, glm::vec2 mouse) {
     corner = {to.x, to.z};
     // So near to the next corner or the one before, seen in the window and on the plan, it is meant to be one with it.
     const Ring ring = ringOf(dragged_, *corner_);
-    const float near = kMergeReach * work.scale, pixels = work.camera.pixelsPerMetre(now, work.window.y);
+    const float near = kMergeReach * work.scale, pixels = work.camera.pixelsPerMetre(now, work.viewSize().y);
     const auto shown = work.place({to.x, info.eaveHeight, to.z});
     for (size_t other : {ring.after(*corner_), ring.before(*corner_)}) {
         const auto& next = dragged_.corners[other];

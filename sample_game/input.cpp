@@ -56,7 +56,7 @@ Input::Input(GLFWwindow* window) : gui(window), window_(window) {
         of(w).wheel_ += float(y);
     });
     glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
-        if (count > 0) of(w).dropped_ = paths[0];
+        of(w).dropped_.insert(of(w).dropped_.end(), paths, paths + count);
     });
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "sample_game/gui_events.hpp"
 
@@ -26,8 +27,8 @@ class Input {
     float takeWheel() { return std::exchange(wheel_, 0.f); }
     // Something came that the frames haven't seen yet.
     bool pending() const { return !dropped_.empty() || wheel_ != 0 || gui.waiting(); }
-    // A file or folder that was dropped onto the window since the last call; empty: none was.
-    std::string takeDropped() { return std::exchange(dropped_, {}); }
+    // Files and folders that were dropped onto the window since the last call.
+    std::vector<std::string> takeDropped() { return std::exchange(dropped_, {}); }
     // By where it is on a keyboard of the US: who flies by W A S D looks for a place, not for letters.
     bool down(int key) const;
     int mods() const;
@@ -43,7 +44,7 @@ class Input {
     GLFWwindow* window_;
     std::map<int, int>
         meant_;  // of keys that were pressed: they go up as the same, whatever layout is chosen meanwhile
-    std::string dropped_;
+    std::vector<std::string> dropped_;
     float wheel_ = 0;
     float x_ = 0, y_ = 0;
 };

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "sample_game/additions.hpp"
 #include "sample_game/app.hpp"
+#include "sample_game/model_bake.hpp"
 #include "tools/command_line.hpp"
 #include "tools/scene/heap.hpp"
 
@@ -19,8 +21,8 @@ int playAsAsked(int argc, char** argv) {
     long long seed = -1;
     cli.add_option(
         "FILE", options.request.file,
-        "a scene (SCENE.json), a project's folder, what espalier-bake wrote (SURFACE.glb), or a recorded run "
-        "(RUN.jsonl) to see again; default: the sample scene");
+        "a scene (SCENE.json), a project's folder, what espalier-bake wrote (SURFACE.glb), a recorded run "
+        "(RUN.jsonl) to see again, or a model (.glb, .obj ...), which is baked first; default: the sample scene");
     cli.add_option("--layer", layers,
                    "NAME=FILE: a picture drawn in the model's UVs, or of a town's layer, seen from above")
         ->allow_extra_args(false);
@@ -39,6 +41,8 @@ int playAsAsked(int argc, char** argv) {
                  "turns the view by two degrees in each of --frames, as a drag does, and tells how long a frame takes");
     cli.add_option("--screenshot", options.screenshot, "writes the last of --frames as PNG");
     cli.add_flag("--editor", options.editor, "begins in the editor (Tab)");
+    bool fresh = false;
+    cli.add_flag("--new", fresh, "begins in the editor with an empty scene, to which models are added");
     cli.add_option("--record", options.record,
                    "records what is done into this file (RUN.jsonl), which mustn't exist yet")
         ->check(CLI::NonexistentPath);
@@ -65,6 +69,9 @@ int playAsAsked(int argc, char** argv) {
         return fail("--autosave and --ui-scale take numbers");
     options.sized = cli.count("--size") > 0;
     if (seed >= 0) options.request.seed = uint32_t(seed);
+    if (fresh && !options.request.file.empty()) return fail("--new takes no FILE");
+    if (sample::isModel(options.request.file)) options.models = {options.request.file};
+    if (fresh || !options.models.empty()) options.request.file = sample::emptyScene(), options.editor = true;
     if (options.request.file.empty()) options.request.file = espalier::scene::contentFolder() + "/sample.json";
     const char* wanted = std::getenv("ESPALIER_VALIDATION");
     options.validation = options.validation || (wanted && std::string(wanted) == "1");

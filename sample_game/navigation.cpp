@@ -11,7 +11,7 @@ namespace sample {
 
 bool Navigation::take(Workspace& work, const PointerEvent& event) {
     const glm::vec2 at{event.x, event.y};
-    const glm::vec2 moved = known_ ? (at - last_) / work.window.y : glm::vec2(0);
+    const glm::vec2 moved = known_ ? (at - last_) / work.viewSize().y : glm::vec2(0);
     last_ = at;
     known_ = true;
     using Kind = PointerEvent::Kind;

@@ -27,6 +27,7 @@ void toolButtons(Workspace& work) {
         {"Look", "Q", Tool::look, "Turn around the scene by dragging"},
         {"Paint", "B", Tool::paint, "Paint a layer, such as where ivy grows"},
         {"Seeds", "S", Tool::seeds, "Plant, choose, move and turn seeds"},
+        {"Path", "T", Tool::path, "Draw a line: ivy grows along it"},
         {"Branch", "P", Tool::branch, "Pick a branch: prune it, freeze its plant, see how it walked"},
         {"Roofs", "H", Tool::houses, "Choose a house: its roof, its outline"},
         {"Fields", "E", Tool::fields, "Place and turn the elements of a field that guides patterns"}};
@@ -162,13 +163,16 @@ void showPanel(Workspace& work) {
             ImGui::Separator();
             brushPanel(work);
         }
-        if (work.tool == Tool::seeds) seedsPanel(work);
+        if (work.tool == Tool::seeds || work.tool == Tool::path) seedsPanel(work);
         if (work.tool == Tool::branch) branchPanel(work);
         if (work.tool == Tool::houses) housesPanel(work);
         if (work.tool == Tool::fields) fieldsPanel(work);
         ImGui::Spacing();
         grammarsPanel(work);
         if (work.tool != Tool::paint && ImGui::CollapsingHeader("Layers")) layersPanel(work);
+        if (!work.scene().seeds.empty() && ImGui::CollapsingHeader("Plants")) plantsPanel(work);
+        if (!work.scene().surfaces.empty() && ImGui::CollapsingHeader("Models")) modelsPanel(work);
+        if (espHouseCount(work.context.get()) > 0 && ImGui::CollapsingHeader("Houses")) houseList(work);
         ImGui::EndChild();
     }
     ImGui::End();

@@ -62,6 +62,7 @@ void showDialogues(Workspace& work, Session& session) {
     exportDialogue(work, session);
     runDialogues(work, session);
     layerDialogues(work, session);
+    lookDialogues(work, session);
     askElsewhere(work, session);
 }
 

@@ -235,7 +235,7 @@ void showLegend(const Workspace& work) {
     const bool amounts = espViewColour(view, 0, rgb, &most) == ESP_OK;
     if (colours || (!amounts && view != ESP_VIEW_CHARTS && view != ESP_VIEW_NORMALS)) return;
     const float s = work.scale;
-    const ImVec2 corner{work.panelUnits() + 12 * s, work.window.y - ImGui::GetFrameHeight() - 16 * s};
+    const ImVec2 corner{work.panelUnits() + 12 * s, work.viewSize().y - ImGui::GetFrameHeight() - 16 * s};
     if (beginOverlay(work, "legend", corner, {0, 1}, 0)) {
         if (view == ESP_VIEW_CHARTS)
             ImGui::TextUnformatted("A colour for each chart\nPale: links lead over its border");

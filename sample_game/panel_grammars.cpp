@@ -7,14 +7,18 @@
 #include <cstdio>
 #include <cstring>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 #include "sample_game/panels.hpp"
 #include "sample_game/theme.hpp"
+#include "tools/scene/param_words.hpp"
 
 namespace sample {
 namespace {
 
 using namespace espalier::document;
+using espalier::scene::paramWords;
 
 // "%.2f m": as many digits as the range asks for; a unit may hold a percent sign.
 std::string formatOf(const EspParamInfo& param) {
@@ -26,14 +30,15 @@ std::string formatOf(const EspParamInfo& param) {
     return format;
 }
 
-// Its name in the text, and what is no matter of course about its slider.
+// What its label tells, its name in the text, and what is no matter of course about its slider.
 std::string paramTip(const EspParamInfo& param) {
-    if (param.kind != ESP_PARAM_FLOAT) return param.name;
+    const std::string tip = paramWords(param.label).tip, first = tip.empty() ? "" : tip + "\n";
+    if (param.kind != ESP_PARAM_FLOAT) return first + param.name;
     char text[200];
     std::snprintf(text, sizeof text,
                   "%s in the grammar's text: %.4g to %.4g%s%s, there %.4g\nDouble click or Ctrl+click to type a value",
                   param.name, param.low, param.high, param.unit[0] ? " " : "", param.unit, param.initial[0]);
-    return text;
+    return first + text;
 }
 
 bool isInitial(const EspParamInfo& param) {
@@ -50,7 +55,7 @@ bool editParam(const EspParamInfo& param, float* value, bool several) {
     if (param.kind == ESP_PARAM_BOOL) {
         bool on = value[0] != 0;
         ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, several);
-        const bool changed = checkBox(param.label, &on);
+        const bool changed = checkBox(paramWords(param.label).name.c_str(), &on);
         ImGui::PopItemFlag();
         value[0] = on;
         return changed;
@@ -66,7 +71,7 @@ namespace {
 void paramRow(Workspace& work, uint32_t grammar, const EspParamInfo& param) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing,
                         {ImGui::GetStyle().ItemSpacing.x, ImGui::GetStyle().ItemSpacing.y / 3});
-    if (param.kind != ESP_PARAM_BOOL) label(param.label);
+    if (param.kind != ESP_PARAM_BOOL) label(paramWords(param.label).name.c_str());
     ImGui::PopStyleVar();
     const float button = ImGui::GetFrameHeight();
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
@@ -105,9 +110,47 @@ std::string grammarTip(const Workspace& work, uint32_t index) {
            "; values set here are for these alone";
 }
 
+// What is typed into the field above the parameters; those that hold its words are shown.
+std::string& wantedParams() {
+    static std::string wanted;
+    return wanted;
+}
+
+void searchField() {
+    char text[64];
+    std::snprintf(text, sizeof text, "%s", wantedParams().c_str());
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+    if (ImGui::InputTextWithHint("##find", "Find a value", text, sizeof text)) wantedParams() = text;
+    toolTip("Shows only values with these words in their name, group or tip");
+}
+
+// By groups, in the order in which the text begins them; first those without one.
+void paramRows(Workspace& work, uint32_t grammar) {
+    const EspGrammar id = work.scene().grammars[grammar].id;
+    std::vector<std::pair<std::string, std::vector<EspParamInfo>>> groups{{"", {}}};
+    for (uint32_t p = 0; p < espParamCount(work.context.get(), id); ++p) {
+        EspParamInfo info;
+        if (espParamInfo(work.context.get(), id, p, &info) != ESP_OK) continue;
+        if (!espalier::scene::holdsWords(std::string(info.label) + " " + info.name, wantedParams())) continue;
+        const std::string group = paramWords(info.label).group;
+        auto place = std::ranges::find(groups, group, [](const auto& known) { return known.first; });
+        if (place == groups.end()) place = groups.insert(place, {group, {}});
+        place->second.push_back(info);
+    }
+    for (const auto& [group, params] : groups) {
+        if (!group.empty()) ImGui::TextColored(kGood, "%s", group.c_str());
+        for (const EspParamInfo& info : params) {
+            ImGui::PushID(info.name);  // what is typed stays this one's where a text gets others before it
+            paramRow(work, grammar, info);
+            ImGui::PopID();
+        }
+    }
+}
+
 }  // namespace
 
 void grammarsPanel(Workspace& work) {
+    if (!work.scene().grammars.empty()) searchField();
     // Beside the tool for houses what they are made by comes first, and is open.
     const bool houses = work.tool == Tool::houses;
     std::vector<uint32_t> order(work.scene().grammars.size());
@@ -139,13 +182,8 @@ void grammarsPanel(Workspace& work) {
                 hint("The text has warnings: click to see them");
                 if (ImGui::IsItemClicked()) work.showGrammar(true, i);
             }
-            for (uint32_t p = 0; p < espParamCount(work.context.get(), grammar.id); ++p) {
-                EspParamInfo info;
-                if (espParamInfo(work.context.get(), grammar.id, p, &info) != ESP_OK) continue;
-                ImGui::PushID(info.name);  // what is typed stays this one's where a text gets others before it
-                paramRow(work, i, info);
-                ImGui::PopID();
-            }
+            paramRows(work, i);
+            looksPanel(work, i);
         }
         ImGui::PopID();
     }

@@ -23,7 +23,9 @@ void showHelp(Workspace& work) {
                           {"F or numpad .", "show what is chosen; with the brush in hand numpad . only"},
                           {"Numpad 1 3 7", "from the front, the right, above; Ctrl: the other side"},
                           {"Numpad 2 4 6 8, + -", "turn by 15 degrees, nearer, further"},
-                          {"Numpad 0", "the start view"}};
+                          {"Numpad 5", "parallel lines stay parallel, and back"},
+                          {"Numpad 0", "the start view"},
+                          {"Ctrl+1 to 9, Shift+1 to 9", "keep the view under a digit, show it again"}};
     const Row paint[] = {{"B, then drag", "paint the chosen layer"},
                          {"Ctrl+drag, Shift+drag", "erase (back to as it comes), smooth"},
                          {"X", "the opposite value: to take away what would be painted"},
@@ -39,15 +41,19 @@ void showHelp(Workspace& work) {
         {"Shift+D or Ctrl+D", "copies of the chosen seeds, to be moved as with G"},
         {"A, Alt+A, X or Del", "choose all, none, remove"},
         {"Shift+R", "other random numbers for all"},
+        {"T, then drag", "ivy grows along the line that you draw; Shift: also where another line is"},
+        {"T, then click a line", "drag its points, or the line between them; Del removes a point, or the line"},
+        {"H, Shift+H, Alt+H", "hide the chosen plants, all others, show all; numpad / : the chosen alone, and back"},
         {"P, then click", "a branch; [ picks its parent, Del prunes it"},
         {"H, then click", "a house; drag its corners, choose its edges"},
         {"E, then click", "an element of a field; drag gives its direction"},
         {"Ctrl+drag, Del", "a new corner in an edge, the chosen edge's corner goes"}};
     const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y", "undo, redo: of everything"},
                        {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
-                       {"Ctrl+O, Ctrl+E, Ctrl+Q", "open, export the layer, quit"},
+                       {"Ctrl+N, Ctrl+O, Ctrl+E, Ctrl+Q", "new scene, open, export the layer, quit"},
                        {"1 2 3 4 5 6", "shaded, charts, normals, levels of detail, branches from the seed, overdraw"},
-                       {"F2 F3 F4 F5", "panel, statistics, grammar, atlas"},
+                       {"F2 F3 F4 F5 F6", "panel, statistics, grammar, atlas, nodes of a graph"},
+                       {"Space, Left, Right, Ctrl+Home", "of graphs: play, step, back to frame 0"},
                        {"F12", "write a screenshot"},
                        {"Esc, Q", "puts the tool away; Esc stops growth that takes long"}};
     const float top = ImGui::GetFrameHeight();  // the menu's bar
@@ -60,8 +66,8 @@ void showHelp(Workspace& work) {
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize | kQuiet;
     if (ImGui::Begin("Keys and mouse", &work.layout.help, flags)) {
         ImGui::TextWrapped(
-            "A path of ivy up a wall: B, Clear the mask, drag up the wall; then S and a "
-            "click at the foot of what you painted.");
+            "A path of ivy up a wall: T, then drag up the wall. A model comes to the scene when you drop it onto the "
+            "window.");
         const auto table = [&](const char* title, const Row* rows, size_t count) {
             ImGui::Spacing();
             ImGui::TextColored(kGood, "%s", title);

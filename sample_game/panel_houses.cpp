@@ -173,7 +173,10 @@ void housesPanel(Workspace& work) {
         ImGui::TextDisabled("%s", espHouseCount(work.context.get()) ? "Click a house" : "This scene has no town");
         return;
     }
+    const auto& town = work.scene().town;
+    if (!town) return ImGui::TextDisabled("A graph has made these houses, and changes them");
     House house = houseNow(work.context.get(), *work.house);
+    ImGui::BeginDisabled(town->mark(*work.house).locked);
     ImGui::PushID(int(*work.house));  // what is typed is this one's
     ImGui::Text("%s", info.id);
     ImGui::SameLine();
@@ -206,8 +209,7 @@ void housesPanel(Workspace& work) {
         aside("Click an edge of the outline for a gable or a pitch of its own");
     }
     if (edit.changed) work.perform(SetHouse{house}, edit.gesture);
-    const auto& town = work.scene().town;
-    ImGui::BeginDisabled(!town || !std::ranges::count(town->houses, *work.house, &House::index));
+    ImGui::BeginDisabled(!std::ranges::count(town->houses, *work.house, &House::index));
     if (ImGui::Button("Reset to plan", {-1, 0})) work.perform(ResetHouse{*work.house});
     toolTip("Back to what the town's file says");
     ImGui::EndDisabled();
@@ -215,6 +217,7 @@ void housesPanel(Workspace& work) {
         aside("Plants keep to walls as they were baked: they don't follow an outline.");
     }
     ImGui::PopID();
+    ImGui::EndDisabled();
 }
 
 }  // namespace sample

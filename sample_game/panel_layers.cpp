@@ -53,8 +53,11 @@ std::vector<Layer> layersOf(const Workspace& work) {
     return layers;
 }
 
+bool isSeen(const Workspace& work, const Layer& layer) {
+    return work.scene().look.view == ESP_VIEW_LAYER && work.scene().viewLayer == layer.name;
+}
+
 void chosenLayer(Workspace& work, const Layer& layer) {
-    const auto& scene = work.scene();
     const float gap = ImGui::GetStyle().ItemSpacing.x / 2;
     const float width = (ImGui::GetContentRegionAvail().x - gap * 4) / 5;
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {2 * work.scale, ImGui::GetStyle().FramePadding.y});
@@ -65,18 +68,22 @@ void chosenLayer(Workspace& work, const Layer& layer) {
         return pressed;
     };
     const Brush& brush = work.brush;
-    char fill[160];
-    std::snprintf(fill, sizeof fill,
-                  "Fills the whole layer with the brush's value, %.2f. Where nothing was painted it is %.2f",
-                  brush.value, double(espalier::scene::fillOf(work.context.get(), scene, layer.name)));
+    // Named by what they make of the layer; what it is then is said, too.
+    const auto fill = [&](const FillLayer& action, const std::string& now) {
+        if (work.perform(action))
+            work.say("All of " + layer.name + " is " + now + " now; Ctrl+Z brings back what was painted");
+    };
     if (layer.colour()) {
-        if (button("Clear", "Fills the whole layer with the grammar's own colour"))
-            work.perform(FillLayer{layer.name, 0, layer.fill});
-        if (button("Fill", "Fills the whole layer with the brush's colour"))
-            work.perform(FillLayer{layer.name, 0, {std::begin(brush.colour), std::end(brush.colour)}});
+        if (button("Plain", "The whole layer gets the grammar's own colour: nothing is stained"))
+            fill({layer.name, 0, layer.fill}, "plain");
+        if (button("Fill", "The whole layer gets the brush's colour"))
+            fill({layer.name, 0, {std::begin(brush.colour), std::end(brush.colour)}}, "the brush's colour");
     } else {
-        if (button("Clear", "Fills the whole layer with 0")) work.perform(FillLayer{layer.name, 0});
-        if (button("Fill", fill)) work.perform(FillLayer{layer.name, brush.value});
+        char value[16];
+        std::snprintf(value, sizeof value, "%.2g", double(brush.value));
+        if (button("All 0", "The whole layer gets 0, whatever was painted")) fill({layer.name, 0}, "0");
+        if (button(("All " + std::string(value) + "###fill").c_str(), "The whole layer gets the brush's value"))
+            fill({layer.name, brush.value}, value);
     }
     if (button("Import", layer.town ? "A picture (.png, .exr) of the town from above, north up, as Export writes it"
                                     : "A picture (.png, .exr) over the surface's atlas (F5), as Export writes it"))
@@ -84,7 +91,7 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     if (button("Export", layer.town ? "Writes the layer as it is seen from above, north up"
                                     : "Writes the layer as a picture over the surface's atlas (F5)"))
         askForLayer(layer.name, false);
-    const bool seen = scene.look.view == ESP_VIEW_LAYER && scene.viewLayer == layer.name;
+    const bool seen = isSeen(work, layer);
     if (button("Show", layer.town ? "Shows what is painted on the roofs (V)" : "Shows what is painted on the model (V)",
                seen))
         work.perform(SetView{seen ? "shaded" : "layer", seen ? "" : layer.name});
@@ -95,12 +102,12 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     if (changesNothing) {
         char text[200];
         std::snprintf(text, sizeof text,
-                      "All of %s is %.2g, and the brush paints %.2g: a stroke changes nothing. Clear it first.",
+                      "All of %s is %.2g, and the brush paints %.2g: a stroke changes nothing. Press All 0 first.",
                       layer.name.c_str(), layer.fill[0], brush.value);
         hint(text);
     }
     // A line in either case, so that the first stroke moves nothing from under the mouse.
-    const char* now = layer.painted ? "Painted" : "Not painted yet";
+    const char* now = layer.painted ? "Painted" : "Nothing is painted";
     if (layer.colour())
         ImGui::TextDisabled("%s.", now);
     else if (!changesNothing)
@@ -115,6 +122,20 @@ void chosenLayer(Workspace& work, const Layer& layer) {
     ImGui::PopTextWrapPos();
 }
 
+// The eye lays what is painted over the model or the roofs.
+void layerBoxes(Workspace& work, const Layer& layer) {
+    const float close = ImGui::GetStyle().ItemInnerSpacing.x / 2;
+    const auto& scene = work.scene();
+    bool seen = isSeen(work, layer);
+    if (eyeBox("##seen", &seen)) work.perform(SetView{seen ? "layer" : "shaded", seen ? layer.name : ""});
+    toolTip("Shows what is painted, in place of the picture");
+    ImGui::SameLine(0, close);
+    bool locked = std::ranges::find(scene.lockedLayers, layer.name) != scene.lockedLayers.end();
+    if (lockBox("##locked", &locked)) work.perform(LockLayer{layer.name, locked});
+    toolTip("Locked: it stays as it is painted");
+    ImGui::SameLine(0, close);
+}
+
 }  // namespace
 
 void layersPanel(Workspace& work) {
@@ -126,13 +147,14 @@ void layersPanel(Workspace& work) {
     for (const Layer& layer : layers) {
         if (layer.town && (&layer == &layers.front() || !(&layer)[-1].town)) ImGui::TextDisabled("Over the roofs:");
         ImGui::PushID(layer.name.c_str());
+        layerBoxes(work, layer);
         const bool chosen = work.brush.layer == layer.name;
         if (ImGui::RadioButton(layer.name.c_str(), chosen)) work.chooseLayer(layer.name);
         const std::string tip = layer.readers.empty()
                                     ? "Painted, but no grammar reads it now"
                                     : (layer.label.empty() ? "" : layer.label + "\n") + "Read by " + layer.readers;
         toolTip(tip.c_str());
-        ImGui::SameLine(ImGui::GetFontSize() * 7);
+        ImGui::SameLine(ImGui::GetFontSize() * 10);
         const std::string what =
             layer.readers.empty() ? "no grammar reads it" : layer.label.substr(0, layer.label.find(':'));
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
@@ -144,7 +166,7 @@ void layersPanel(Workspace& work) {
     if (chosen == layers.end()) return;
     chosenLayer(work, *chosen);
     if (chosen->name == "mask" && !chosen->readers.empty())
-        aside("A path up a wall: Clear, drag up the wall; then S and a click at its foot.");
+        aside("A path up a wall: T and a drag. By paint: All 0, drag up the wall; then S and a click at its foot.");
 }
 
 }  // namespace sample

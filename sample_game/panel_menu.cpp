@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
+#include "sample_game/additions.hpp"
+#include "sample_game/graph_editor.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/theme.hpp"
 #include "tools/scene/layers.hpp"
@@ -14,8 +17,29 @@ namespace {
 
 using namespace espalier::document;
 
+// What was opened or saved lately and is still there.
+void recentMenu(Workspace& work, Session& session) {
+    if (!ImGui::BeginMenu("Recent", !work.layout.recent.empty())) return;
+    for (const std::string& file : work.layout.recent) {
+        std::error_code ignored;
+        const bool there = std::filesystem::exists(file, ignored);
+        if (ImGui::MenuItem((espalier::scene::lastPart(file) + "##" + file).c_str(), nullptr, false, there))
+            askToLeave(work, session, file);
+        toolTip(file.c_str());
+    }
+    ImGui::EndMenu();
+}
+
 void fileMenu(Workspace& work, Session& session) {
+    if (ImGui::MenuItem("New", "Ctrl+N")) askToLeave(work, session, emptyScene());
+    toolTip("An empty scene: add models to it, or drop them onto the window");
     if (ImGui::MenuItem("Open ...", "Ctrl+O")) askToOpen();
+    recentMenu(work, session);
+    if (ImGui::MenuItem("Add model ...")) askForModel();
+    toolTip("A model comes to what is open, baked first if need be. So does one that is dropped onto the window");
+    if (ImGui::MenuItem("Add grammar ...")) askForGrammar();
+    toolTip("Plants, roofs or patterns of another kind, for seeds of their own");
+    ImGui::Separator();
     if (ImGui::MenuItem("Save", "Ctrl+S")) askToSave(work, session);
     if (ImGui::MenuItem("Save as ...", "Ctrl+Shift+S")) askToSave(work, session, true);
     if (ImGui::MenuItem("Export ...")) askToExport(work);
@@ -56,6 +80,8 @@ Hint hintOf(const Workspace& work, bool caught, bool flying) {
                     (caught ? "   Esc: free the mouse" : ""),
                 "   Tab: the editor"};
     if (work.underWay) return {work.underWay, ""};
+    if (work.scene().surfaces.empty() && !work.scene().town && work.scene().graphs.empty())
+        return {"Drop a model (.glb, .obj ...) onto the window, or File, Add model", "   F1: all keys"};
     std::string text;
     switch (work.tool) {
         case Tool::paint:
@@ -69,6 +95,12 @@ Hint hintOf(const Workspace& work, bool caught, bool flying) {
             text =
                 "Click: plant   drag: with a direction   Ctrl+drag: a row   click a seed: choose   Shift+drag: "
                 "several   G: move   R: turn   Shift+D: duplicate   Del: remove";
+            break;
+        case Tool::path:
+            text =
+                "Drag: ivy grows along the line   click a line, drag its points: it changes   Del: a point or the line "
+                "  "
+                "Esc while dragging: nothing";
             break;
         case Tool::houses:
             text =
@@ -91,6 +123,31 @@ Hint hintOf(const Workspace& work, bool caught, bool flying) {
             break;
     }
     return {text, "   Tab: walk   F1: all keys"};
+}
+
+// The views that are kept, and a row that keeps one more.
+void bookmarkMenu(Workspace& work) {
+    if (!ImGui::BeginMenu("Bookmarks")) return;
+    const auto& bookmarks = work.scene().bookmarks;
+    std::optional<uint32_t> removed;
+    uint32_t free = 1;
+    for (const espalier::scene::Bookmark& bookmark : bookmarks) {
+        const std::string digit = std::to_string(bookmark.digit);
+        if (bookmark.digit == free) ++free;
+        ImGui::PushID(int(bookmark.digit));
+        if (ImGui::MenuItem(("View " + digit).c_str(), ("Shift+" + digit).c_str()))
+            work.looked = work.lookFromBookmark(bookmark.digit);
+        ImGui::SameLine(0, ImGui::GetFontSize());
+        if (ImGui::SmallButton("\u00d7")) removed = bookmark.digit;
+        toolTip("Removes the bookmark");
+        ImGui::PopID();
+    }
+    if (removed) work.perform(SetBookmark{*removed, false});
+    if (free <= espalier::scene::kMostBookmarks &&
+        ImGui::MenuItem("Keep this view", ("Ctrl+" + std::to_string(free)).c_str()))
+        work.keepBookmark(free);
+    toolTip("Ctrl and a digit keep the view under that digit");
+    ImGui::EndMenu();
 }
 
 // As much of it as there is room for: the last hints give way, each as a whole, then the first. Empty: there is no
@@ -141,6 +198,9 @@ void showMenu(Workspace& work, Session& session) {
             const std::string again = redo ? std::string("Redo: ") + redo : "Redo";
             if (ImGui::MenuItem(back.c_str(), "Ctrl+Z", false, undo)) work.perform(Undo{});
             if (ImGui::MenuItem(again.c_str(), "Ctrl+Shift+Z", false, redo)) work.perform(Redo{});
+            ImGui::Separator();
+            if (ImGui::MenuItem("New graph")) addGraph(work);
+            toolTip("Geometry that nodes make, in the node editor below the view");
             ImGui::EndMenu();
         }
         if (ImGui::BeginMenu("View")) {
@@ -160,12 +220,19 @@ void showMenu(Workspace& work, Session& session) {
             camera("Show all", "Home", &Workspace::frameAll);
             camera("Show what is chosen", "Numpad .", &Workspace::frameChosen);
             camera("Start view", "Numpad 0", &Workspace::lookFromStart);
+            if (ImGui::MenuItem("Flat view", "Numpad 5", work.camera.flat())) {
+                work.camera.toggleFlat();
+                work.looked = work.redraw = true;
+            }
+            toolTip("Parallel lines stay parallel, as in a drawing");
+            bookmarkMenu(work);
             ImGui::Separator();
             ImGui::MenuItem("Panel", "F2", &work.layout.panel);
             ImGui::MenuItem("Statistics", "F3", &work.layout.figures);
             if (ImGui::MenuItem("Grammar", "F4", work.layout.grammar))
                 work.showGrammar(!work.layout.grammar, work.shownGrammar);
             if (ImGui::MenuItem("Atlas", "F5", work.layout.atlas)) work.showAtlas(!work.layout.atlas);
+            if (ImGui::MenuItem("Nodes", "F6", work.graphs.nodes)) showNodes(work, !work.graphs.nodes);
             if (ImGui::MenuItem("Reset windows")) {
                 work.windowsAnew = 2;
                 work.layout.panelWidth = Layout{}.panelWidth;
@@ -180,6 +247,8 @@ void showMenu(Workspace& work, Session& session) {
         }
         if (ImGui::BeginMenu("Help")) {
             ImGui::MenuItem("Keys and mouse", "F1", &work.layout.help);
+            ImGui::MenuItem("Manual", nullptr, &work.manual);
+            ImGui::MenuItem("About", nullptr, &work.about);
             ImGui::EndMenu();
         }
         showName(work, session);
@@ -222,7 +291,7 @@ void showStatus(const Workspace& work, bool caught, bool flying) {
 // Not in a window, of which ImGui hides a new one for a frame: there may be only one.
 void showUnderWay(const Workspace& work, const char* text) {
     noteAt(work,
-           {(work.window.x + work.panelUnits() - ImGui::CalcTextSize(text).x) / 2, work.window.y - 90 * work.scale},
+           {(work.window.x + work.panelUnits() - ImGui::CalcTextSize(text).x) / 2, work.viewSize().y - 90 * work.scale},
            text);
 }
 
@@ -236,7 +305,7 @@ void progressBar(const Background& background, float width) {
 
 void showBackground(const Workspace& work, Background& background) {
     if (!background.slow() || dialogueWaits()) return;
-    ImGui::SetNextWindowPos({(work.window.x + work.panelUnits()) / 2, work.window.y - 150 * work.scale},
+    ImGui::SetNextWindowPos({(work.window.x + work.panelUnits()) / 2, work.viewSize().y - 150 * work.scale},
                             ImGuiCond_Always, {.5f, .5f});
     const int flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                       ImGuiWindowFlags_AlwaysAutoResize | kQuiet;

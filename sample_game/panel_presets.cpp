@@ -60,12 +60,39 @@ void renameRow(Workspace& work, const std::string& grammar, Names& names) {
     if (renamePreset(grammar, names.renamed, names.wanted, work.error)) names.renamed.clear();
 }
 
+constexpr uint32_t kPictureWidth = 192, kPictureHeight = 128;  // pixels
+
+// The preset's picture before its name, if there is one; how high its row is. 0: as high as its letters.
+float pictureCell(const Workspace& work, const std::string& file) {
+    float aspect = 1;
+    void* const picture = work.pictureOf ? work.pictureOf(file, aspect) : nullptr;
+    if (!picture) return 0;
+    const float high = ImGui::GetFontSize() * 3;
+    ImGui::Image(picture, {high * aspect, high});
+    if (ImGui::IsItemHovered() && !toolTipWaits()) {
+        ImGui::BeginTooltip();
+        ImGui::Image(picture, {kPictureWidth * 2 * work.scale, kPictureWidth * 2 * work.scale / aspect});
+        ImGui::EndTooltip();
+    }
+    ImGui::SameLine();
+    return high;
+}
+
+// A choice beside its picture, in the middle of the row.
+bool pictureChoice(const char* name, ImVec2 size) {
+    ImGui::PushStyleVar(ImGuiStyleVar_SelectableTextAlign, {0, .5f});
+    const bool chosen = ImGui::Selectable(name, false, 0, size);
+    ImGui::PopStyleVar();
+    return chosen;
+}
+
 // True: its values are wanted.
 bool presetRow(Workspace& work, const std::string& grammar, const std::string& name, Names& names) {
     const float gap = ImGui::GetStyle().ItemSpacing.x, pad = 2 * ImGui::GetStyle().FramePadding.x;
     const float buttons = ImGui::CalcTextSize("Rename\u00d7").x + 2 * pad + 2 * gap;
+    const float high = pictureCell(work, presetPicture(grammar, name));
     const float room = std::max(ImGui::GetContentRegionAvail().x, ImGui::GetFontSize() * 18);
-    const bool chosen = ImGui::Selectable(name.c_str(), false, 0, {room - buttons, 0});
+    const bool chosen = pictureChoice(name.c_str(), {room - buttons, high});
     toolTip("Takes these values, as one step of undo");
     ImGui::SameLine();
     if (ImGui::SmallButton("Rename")) {
@@ -84,7 +111,8 @@ void shippedRows(Workspace& work, uint32_t index) {
     ImGui::PushID("shipped");
     for (const std::string& name : shippedPresets(file)) {
         std::vector<Param> params;
-        const bool chosen = ImGui::Selectable(name.c_str());
+        const float high = pictureCell(work, shippedPresetPicture(file, name));
+        const bool chosen = pictureChoice(name.c_str(), {0, high});
         toolTip("Comes with the grammar; one step of undo");
         if (chosen && readShippedPreset(file, name, params, work.error)) apply(work, index, "Preset " + name, params);
     }
@@ -122,11 +150,13 @@ void keepRow(Workspace& work, uint32_t index, const std::string& grammar, Names&
     ImGui::BeginDisabled(!names.kept[0]);
     keeps |= ImGui::Button(taken ? "Replace" : "Keep");
     ImGui::EndDisabled();
-    toolTip("Keeps the values as they are now under this name, for this grammar in any scene");
+    toolTip(
+        "Keeps the values as they are now under this name, with a picture of the view, for this grammar in any scene");
     const std::vector<Param> params = values(work, work.scene().grammars[index].id, false);
     if (!keeps || !names.kept[0] || !writePreset(grammar, name, params, work.error)) return;
     work.error.clear();  // an earlier try's
     work.message = (taken ? "Replaced: " : "Kept: ") + name;
+    work.writeView(presetPicture(grammar, name), kPictureWidth, kPictureHeight);
     names.kept[0] = 0;
     ImGui::CloseCurrentPopup();
 }

@@ -4,8 +4,10 @@
 #include <ctime>
 #include <filesystem>
 
+#include "sample_game/additions.hpp"
 #include "sample_game/dialogue.hpp"
 #include "sample_game/folder_list.hpp"
+#include "sample_game/model_bake.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/replay.hpp"
 #include "tools/scene/scene_file.hpp"
@@ -14,7 +16,13 @@ namespace sample {
 namespace {
 
 using Turn = Dialogues::Turn;
+using espalier::document::AddGrammar;
 namespace fs = std::filesystem;
+
+// Where the user was last; empty: nowhere yet.
+std::string folderOf(const std::string& path) {
+    return path.substr(0, path.rfind('/') + 1);
+}
 
 // When a file was written, as words of a sentence; empty: that isn't known.
 std::string keptAt(const std::string& file) {
@@ -78,6 +86,11 @@ Doubt doubtOfSaving(const Session& session, const std::string& folder) {
     if (fs::exists(fs::path(place) / espalier::scene::kProjectFile, ignored)) return {place + " is a project already."};
     if (fs::directory_iterator(place, ignored) == fs::directory_iterator()) return {};  // empty, or to be made
     return {place + " holds other files.", "Save the project among them?", "Save there"};
+}
+
+std::vector<std::string> withModels(std::vector<std::string> endings) {
+    endings.insert(endings.end(), std::begin(kModelEndings), std::end(kModelEndings));
+    return endings;
 }
 
 // What is open is saved, or may be given up.
@@ -167,7 +180,23 @@ void askToOpen(const std::string& refused, const std::string& why) {
     const bool run = Replay::names(refused);
     ask(run ? "Replay a run" : "Open");
     if (!refused.empty()) d.turn = Turn::failed, d.why = why;
-    put(run ? d.run : d.file, refused);
+    put(run ? d.run : d.file, refused.empty() ? folderOf(d.file.data()) : refused);
+}
+
+void beginOpeningIn(const std::string& recent) {
+    put(dialogues().file, folderOf(recent));
+}
+
+void askForGrammar() {
+    PathText& file = dialogues().grammar;
+    put(file, file[0] ? folderOf(file.data()) : espalier::scene::contentFolder() + "/grammars/");
+    ask("Add a grammar");
+}
+
+void askForModel() {
+    PathText& model = dialogues().model;
+    put(model, folderOf(model[0] ? model.data() : dialogues().file.data()));
+    ask("Add a model");
 }
 
 void projectDialogues(Workspace& work, Session& session) {
@@ -187,17 +216,34 @@ void projectDialogues(Workspace& work, Session& session) {
                 });
             });
     // What can't be opened asks again, see askToOpen.
+    askPath(
+        work, session,
+        {"Open", "A project's folder, a scene (.json) or a model (.glb, .obj ...), which is baked first if need be:",
+         "Open", d.file, withModels({".json", ".geojson"}), true},
+        [&](const char* file) {
+            if (isModel(file)) {
+                openModel(work, session, file);
+                d.turn = turnOf(work, true);
+                return;
+            }
+            // What can't be opened is told before anybody is asked about unsaved work.
+            const bool good = Replay::names(file) || espalier::scene::mayOpen(file, work.error);
+            if (good) askToLeave(work, session, file);
+            d.turn = turnOf(work, good);
+        });
     askPath(work, session,
-            {"Open",
-             "A project's folder, a scene (.json) or a baked surface (.glb):",
-             "Open",
-             d.file,
-             {".json", ".glb"},
-             true},
+            {"Add a model", "A model (.glb, .obj ...), which is baked first if need be, or a baked surface:", "Add",
+             d.model, withModels({}), false},
             [&](const char* file) {
-                // What can't be opened is told before anybody is asked about unsaved work.
-                const bool good = Replay::names(file) || espalier::scene::mayOpen(file, work.error);
-                if (good) askToLeave(work, session, file);
+                work.error.clear();
+                addModels(work, session, {file});
+                d.turn = turnOf(work, work.error.empty());
+            });
+    askPath(work, session, {"Add a grammar", "A grammar's file (.grammar):", "Add", d.grammar, {".grammar"}, false},
+            [&](const char* file) {
+                work.error.clear();
+                const bool good = work.perform(AddGrammar{file});
+                if (good) work.plantGrammar = uint32_t(work.scene().grammars.size() - 1);
                 d.turn = turnOf(work, good);
             });
     recoveryDialogue(session);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "sample_game/panels.hpp"
+#include "tools/scene/param_words.hpp"
 
 namespace sample {
 namespace {
@@ -42,7 +43,7 @@ void ownValues(Workspace& work, std::vector<SeedRecord> chosen) {
         const bool some = has && own.size() < chosen.size();
         ImGui::PushID(info.name);
         ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, some);
-        bool changed = checkBox(info.label, &has);
+        bool changed = checkBox(espalier::scene::paramWords(info.label).name.c_str(), &has);
         ImGui::PopItemFlag();
         toolTip("A value of their own in place of the grammar's");
         has = has || some;  // those that had none get it, too

@@ -16,9 +16,10 @@ void showGrammarWindow(Workspace& work);  // the text, with mistakes at their li
 bool grammarFocused();                    // it was clicked at last: letters are meant for it
 void leaveGrammar();                      // they aren't any more
 void showFigures(const Workspace& work, uint32_t validationMessages, bool validation);
-void showLegend(const Workspace& work);                              // of a view that shows amounts
-void showStatus(const Workspace& work, bool caught, bool flying);    // at the bottom: what keys and buttons do now
-void showWalk(const Workspace& work);                                // of the picked branch, on the model
+void showLegend(const Workspace& work);                            // of a view that shows amounts
+void showStatus(const Workspace& work, bool caught, bool flying);  // at the bottom: what keys and buttons do now
+void showWalk(const Workspace& work);                              // of the picked branch, on the model
+void showManualAndAbout(Workspace& work);
 void showHelp(Workspace& work);                                      // over all: F1
 void showUnderWay(const Workspace& work, const char* text);          // what takes longer than a blink
 void showBackground(const Workspace& work, Background& background);  // what takes long of it, unless a dialogue does
@@ -27,6 +28,9 @@ void progressBar(const Background& background, float width);         // of what 
 // Ctrl+S and Ctrl+O: at once, or by a dialogue. True: it is being saved; else that is asked first.
 bool askToSave(Workspace& work, Session& session, bool elsewhere = false);
 void askToOpen(const std::string& refused = {}, const std::string& why = {});  // refused: what couldn't be opened
+void beginOpeningIn(const std::string& recent);  // beside what was opened by an earlier session
+void askForGrammar();                            // likewise
+void askForModel();                              // that comes to what is open
 void askToExport(const Workspace& work);
 void askToRecord();
 void askToReplay();
@@ -52,10 +56,14 @@ void layersPanel(Workspace& work);
 void seedsPanel(Workspace& work);
 void grammarsPanel(Workspace& work);
 void presetsPanel(Workspace& work, uint32_t grammar);  // a combo that takes the rest of the row
+void looksPanel(Workspace& work, uint32_t grammar);    // of its leaves, bark ...: colour, picture, model
 void branchPanel(Workspace& work);
 void housesPanel(Workspace& work);
 void fieldsPanel(Workspace& work);
 void lightPanel(Workspace& work);
+void plantsPanel(Workspace& work);
+void modelsPanel(Workspace& work);  // where each stands
+void houseList(Workspace& work);
 
 // A slider, check box (with its label) or colour. True: the value has changed. several: it stands for values that
 // differ.

@@ -47,7 +47,7 @@ uint32_t SeedTool::seedAt(const Workspace& work, glm::vec2 at) const {
     float nearest = kReach * work.scale;
     for (const Seed& seed : work.scene().seeds) {
         const auto place = work.place(vec(seed.position));
-        if (!place || glm::distance(*place, at) > nearest || !work.visible(vec(seed.position))) continue;
+        if (seed.hidden || !place || glm::distance(*place, at) > nearest || !work.visible(vec(seed.position))) continue;
         nearest = glm::distance(*place, at);
         best = seed.key;
     }
@@ -234,6 +234,7 @@ void SeedTool::duplicate(Workspace& work, glm::vec2 at) {
         copy.key = work.document->freshKey();
         copy.number = std::random_device()();
         copy.frozen = {};
+        copy.line.clear();  // which leads the other one
         copies.seeds.push_back(std::move(copy));
         copies.places.push_back(uint32_t(work.scene().seeds.size() + copies.places.size()));
     }
@@ -272,12 +273,14 @@ void SeedTool::selectBox(Workspace& work) const {
     const glm::vec2 low = glm::min(from_, last_), high = glm::max(from_, last_);
     for (const Seed& seed : work.scene().seeds) {
         const auto at = work.place(vec(seed.position));
-        if (at && glm::clamp(*at, low, high) == *at && work.visible(vec(seed.position))) work.selected.insert(seed.key);
+        if (!seed.hidden && at && glm::clamp(*at, low, high) == *at && work.visible(vec(seed.position)))
+            work.selected.insert(seed.key);
     }
 }
 
 void SeedTool::selectAll(Workspace& work) {
-    for (const Seed& seed : work.scene().seeds) work.selected.insert(seed.key);
+    for (const Seed& seed : work.scene().seeds)
+        if (!seed.hidden) work.selected.insert(seed.key);
 }
 
 void SeedTool::draw(const Workspace& work) const {
@@ -312,6 +315,7 @@ void SeedTool::draw(const Workspace& work) const {
         const auto at = work.place(point);
         if (!at) continue;
         const bool chosen = work.selected.count(seed.key);
+        if (seed.hidden && !chosen) continue;
         const ImU32 alpha = work.visible(point) ? 0xFF000000 : 0x50000000;
         const ImU32 colour = (chosen ? IM_COL32(255, 190, 60, 0) : IM_COL32(235, 245, 225, 0)) | alpha;
         const glm::vec3 direction = vec(seed.direction);

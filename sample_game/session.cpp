@@ -26,6 +26,11 @@ std::vector<std::string> modelFiles(const espalier::scene::Scene& scene) {
     return files;
 }
 
+// Of surfaces and grammars.
+std::pair<size_t, size_t> filesOf(const espalier::scene::Scene& scene) {
+    return {scene.surfaces.size(), scene.grammars.size()};
+}
+
 }  // namespace
 
 void Session::begin(Workspace& work, const std::string& file, fs::file_time_type read, bool whole) {
@@ -42,6 +47,7 @@ void Session::begin(Workspace& work, const std::string& file, fs::file_time_type
     if (!cannotKeep.empty()) work.message += (work.message.empty() ? "" : "\n") + cannotKeep;
     grammarFiles_.begin(work.scene(), read);
     models_.begin(modelFiles(work.scene()), read);
+    watched_ = filesOf(work.scene());
     reload = givesUp = goesOn = false;
     work.document->beforeEdits([this] { background_.settle(); });
     work.document->listen([this](const Action& action, uint32_t gesture) { recorder_.note(action, gesture); });
@@ -77,9 +83,19 @@ bool Session::step(Workspace& work, double now) {
     if (now < nextLook_ || background_.busy() || waits) return moved;
     nextLook_ = now + kLookEvery;
     noticeLoss(work);
+    followAdditions(work);
     const bool models = models_.changed(), grammars = watchGrammars(work);
     reload = reload || models;
     return moved || models || grammars;
+}
+
+// Files that have come with models and grammars, or have gone, since the scene was opened.
+void Session::followAdditions(const Workspace& work) {
+    if (const auto files = filesOf(work.scene()); files != watched_) {
+        watched_ = files;
+        grammarFiles_.begin(work.scene());
+        models_.begin(modelFiles(work.scene()));
+    }
 }
 
 // Whoever deletes or moves a project's folder while it is open: what is open is all that is left of it. Who saves over
@@ -133,6 +149,7 @@ bool Session::watchGrammars(Workspace& work) {
 void Session::end(Workspace& work) {
     if (recording()) stopRecording(work);
     background_.giveWay();
+    background_.leave();
     background_.finish();
     work.document->beforeEdits({});
     // What lies in the project and is to be decided on isn't written over, nor what is opened now instead of this.
@@ -225,7 +242,7 @@ void Session::save(Workspace& work, const std::string& folder, Ended ended) {
                          work.message =
                              good ? "Saved: " + wholePath(folder) : "Saving was cancelled: on disk all is as it was";
                          work.error = over.error();
-                         if (good) saved(folder, *state);
+                         if (good) saved(folder, *state), work.layout.noteRecent(wholePath(folder));
                          ended(good);
                      }});
 }
@@ -256,7 +273,12 @@ void Session::startRecording(Workspace& work, const std::string& path, uint32_t 
                      [this, &work, path, edited, ended](const Work& over) {
                          work.error = over.error();
                          const bool good = over.state() == Work::State::done && record(work, path, edited);
-                         if (good) beginRun(work);
+                         if (good) {
+                             beginRun(work);
+                             work.say(
+                                 "Recording: undo reaches back to here; what was done before can be undone when "
+                                 "the recording has ended");
+                         }
                          ended(good);
                      }});
 }

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "sample_game/autosaves.hpp"
 #include "sample_game/background.hpp"
@@ -87,6 +88,7 @@ class Session {
     void notKept(Workspace& work, const std::string& why);
     void tellKept(Workspace& work, const std::string& news);
     void noticeLoss(Workspace& work);
+    void followAdditions(const Workspace& work);
     bool record(Workspace& work, const std::string& path, espalier::document::RunHead head);
     void beginRun(Workspace& work);
     void saved(const std::string& folder, uint64_t state);
@@ -103,7 +105,8 @@ class Session {
     uint64_t savedState_ = 0, autosavedState_ = 0;  // see Document::state
     double nextAutosave_ = 0, nextLook_ = 0;
     GrammarFiles grammarFiles_;
-    FileWatch models_;  // of surfaces and town
+    FileWatch models_;                     // of surfaces and town
+    std::pair<size_t, size_t> watched_{};  // how many surfaces and grammars these know of
     espalier::document::Recorder recorder_;
     std::string lostRun_;  // why one ended by itself: told once more at the end
     Background background_;

@@ -29,6 +29,7 @@ struct LayoutRecord {
             v("smaller_while_moving", layout.smallerWhileMoving);
         v("window_width", layout.windowWidth), v("window_height", layout.windowHeight);
         v("maximised", layout.maximised), v("row_step", layout.rowStep), v("row_along", layout.rowAlong);
+        v("recent", layout.recent);
         v("radius", brush.radius), v("strength", brush.strength), v("hardness", brush.hardness);
         v("spacing", brush.spacing), v("town_radius", brush.townRadius);
     }
@@ -83,6 +84,7 @@ bool read(const std::string& path, Record& record, std::string& error) {
 
 constexpr const char* kKept = ".json";
 constexpr const char* kRemoved = ".removed";
+constexpr const char* kPicture = ".png";
 
 fs::path presetFolder(const std::string& grammar) {
     return espalier::scene::configFolder() + "/presets/" + grammar;
@@ -117,6 +119,12 @@ bool readParams(const fs::path& file, std::vector<document::Param>& params, std:
     if (!read(file.string(), preset, error)) return false;
     params = std::move(preset.params);
     return true;
+}
+
+// With a preset that has one; in place of any that is there.
+void movePicture(const std::string& grammar, const std::string& name, const std::string& wanted) {
+    std::error_code none;
+    fs::rename(presetPicture(grammar, name), presetPicture(grammar, wanted), none);
 }
 
 bool moveFile(const fs::path& from, const fs::path& to, std::string& error) {
@@ -196,12 +204,26 @@ bool writePreset(const std::string& grammar, const std::string& name, const std:
         error = "neither XDG_CONFIG_HOME nor HOME is set: there is no place for presets";
         return false;
     }
-    return write(presetFile(grammar, name).string(), Preset{params}, error);
+    if (!write(presetFile(grammar, name).string(), Preset{params}, error)) return false;
+    std::error_code none;
+    fs::remove(presetPicture(grammar, name), none);
+    return true;
+}
+
+std::string presetPicture(const std::string& grammar, const std::string& name) {
+    return presetFile(grammar, name, kPicture).string();
+}
+
+std::string shippedPresetPicture(const std::string& grammarFile, const std::string& name) {
+    return (shippedFolder(grammarFile) / (name + kPicture)).string();
 }
 
 bool renamePreset(const std::string& grammar, const std::string& name, const std::string& wanted, std::string& error) {
     const fs::path from = presetFile(grammar, name), to = presetFile(grammar, wanted);
-    return from == to || moveFile(from, to, error);
+    if (from == to) return true;
+    if (!moveFile(from, to, error)) return false;
+    movePicture(grammar, name, wanted);
+    return true;
 }
 
 bool removePreset(const std::string& grammar, const std::string& name, std::string& error) {
@@ -211,7 +233,10 @@ bool removePreset(const std::string& grammar, const std::string& name, std::stri
     if (code) error = from.string() + ": " + code.message();
     if (code) return false;
     for (const std::string& before : presetsWith(grammar, kRemoved))
-        if (const fs::path file = presetFile(grammar, before, kRemoved); file != to) fs::remove(file, code);
+        if (const fs::path file = presetFile(grammar, before, kRemoved); file != to) {
+            fs::remove(file, code);
+            if (!fs::exists(presetFile(grammar, before), code)) fs::remove(presetPicture(grammar, before), code);
+        }
     return true;
 }
 

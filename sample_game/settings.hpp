@@ -22,7 +22,10 @@ bool readPreset(const std::string& grammar, const std::string& name, std::vector
 std::vector<std::string> shippedPresets(const std::string& grammarFile);
 bool readShippedPreset(const std::string& grammarFile, const std::string& name,
                        std::vector<espalier::document::Param>& params, std::string& error);
-// Takes the place of one of the same name.
+// Where their pictures are, whether there are any or not.
+std::string presetPicture(const std::string& grammar, const std::string& name);
+std::string shippedPresetPicture(const std::string& grammarFile, const std::string& name);
+// Takes the place of one of the same name, whose picture goes.
 bool writePreset(const std::string& grammar, const std::string& name,
                  const std::vector<espalier::document::Param>& params, std::string& error);
 // A name that another one has is refused.

@@ -42,6 +42,7 @@ bool UiRenderer::check(VkResult result, const char* what) {
 }
 
 bool UiRenderer::create() {
+    ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;  // large canvases need it
     return makePipeline() && updateFonts();
 }
 

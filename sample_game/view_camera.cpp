@@ -12,7 +12,8 @@ namespace sample {
 namespace {
 
 constexpr float kMaxPitch = 1.55f;
-constexpr float kWheel = .88f;  // of the distance that a step of the wheel leaves
+constexpr float kFlatFov = .0349066f;  // 2 degrees
+constexpr float kWheel = .88f;         // of the distance that a step of the wheel leaves
 constexpr float kEyeHeight = 1.65f, kBody = .3f, kStep = .45f, kGravity = 9.81f;
 
 }  // namespace
@@ -80,6 +81,19 @@ void ViewCamera::turnTo(float yaw, float pitch) {
 
 void ViewCamera::turnBy(float yaw, float pitch) {
     turnTo(yaw_ + yaw, pitch_ + pitch);
+}
+
+bool ViewCamera::flat() const {
+    return fovY_ < 1.5f * kFlatFov;
+}
+
+void ViewCamera::toggleFlat() {
+    const float to = flat() ? deepFovY_ : kFlatFov;
+    if (!flat()) deepFovY_ = fovY_;
+    const float farther = std::tan(fovY_ / 2) / std::tan(to / 2);
+    eye_ += (1 - farther) * distance_ * ahead();
+    distance_ *= farther;
+    fovY_ = to;
 }
 
 void ViewCamera::focus(float distance) {

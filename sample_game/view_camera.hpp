@@ -41,6 +41,10 @@ class ViewCamera {
     // over.
     void frame(std::span<const glm::vec3> points, float aspect);
     void frame(glm::vec3 low, glm::vec3 high, float aspect);  // a box
+    // By a lens so long that lines which are parallel look so, as in a drawing; and back. What is looked at stays as
+    // large as it is seen.
+    void toggleFlat();
+    bool flat() const;
     // ---- Both
     void look(float x, float y);
     // By `steps` right, up (of the world) and ahead, each -1 to 1, over `seconds`; several together are no faster.
@@ -70,8 +74,9 @@ class ViewCamera {
 
     glm::vec3 eye_{0, 1.7f, 5};
     float yaw_ = 0, pitch_ = 0, distance_ = 5, fovY_ = .7f, reach_ = 1;
-    float fall_ = 0;   // metres a second upward
-    float haste_ = 1;  // of the speed that the scene's size makes usual
+    float deepFovY_ = .7f;  // of the view that isn't flat
+    float fall_ = 0;        // metres a second upward
+    float haste_ = 1;       // of the speed that the scene's size makes usual
 };
 
 }  // namespace sample

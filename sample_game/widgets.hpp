@@ -36,6 +36,9 @@ void rowLabel(const char* text);  // the words before a widget, which takes the 
 std::string shortened(const std::string& text, float room);
 void label(const char* text);
 bool checkBox(const char* label, bool* on);
+// Likewise, drawn as an eye and as a lock, without words.
+bool eyeBox(const char* id, bool* open);
+bool lockBox(const char* id, bool* closed);
 bool beginCombo(const char* id, const std::string& shown);  // ImGui::BeginCombo; what is cut stands first in its tip
 // ImGui::SameLine if something so wide still fits in the row.
 void sameLineIfRoom(float width);

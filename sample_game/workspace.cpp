@@ -50,7 +50,9 @@ bool reachesFar(const espalier::document::Action& action) {
 
 bool Workspace::perform(const espalier::document::Action& action, uint32_t gesture) {
     // News stands while one looks around.
-    if (!std::holds_alternative<espalier::document::SetCamera>(action)) error.clear(), message.clear();
+    const bool looks = std::holds_alternative<espalier::document::SetCamera>(action) ||
+                       std::holds_alternative<espalier::document::SetGraphTime>(action);
+    if (!looks) error.clear(), message.clear();
     redraw = true;
     growsWide |= reachesFar(action);
     const bool back = std::holds_alternative<espalier::document::Undo>(action);
@@ -64,6 +66,13 @@ bool Workspace::perform(const espalier::document::Action& action, uint32_t gestu
 
 void Workspace::takeBack(uint32_t gesture) {
     if (document->undoGesture() == gesture && perform(espalier::document::Undo{})) message.clear();
+}
+
+void Layout::noteRecent(const std::string& file) {
+    constexpr size_t kMost = 10;
+    std::erase(recent, file);
+    recent.insert(recent.begin(), file);
+    if (recent.size() > kMost) recent.resize(kMost);
 }
 
 void Workspace::choose(Tool chosen) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
@@ -14,7 +15,7 @@
 
 namespace sample {
 
-enum class Tool { look, paint, seeds, branch, houses, fields };
+enum class Tool { look, paint, seeds, path, branch, houses, fields };
 
 // What the brush paints with, but for what the keys say while it does.
 struct Brush {
@@ -33,6 +34,7 @@ struct Brush {
 };
 
 constexpr float kLeastPanel = 200, kMostPanel = 800;         // its width at 96 dpi
+constexpr float kTimeBar = 34;                               // its height at 96 dpi
 constexpr float kSmallestBrush = .005f, kLargestBrush = 20;  // radius, metres
 constexpr float kLeastRowStep = .02f, kMostRowStep = 5;      // metres
 
@@ -45,8 +47,16 @@ struct Layout {
     float sizeOfAll = 1;        // of letters and panels, besides the display's own scale
     float layerOpacity = .75f;  // of the layer that is seen on the model
     bool smallerWhileMoving = true;
-    float rowStep = .25f;   // metres between two seeds of a row
-    bool rowAlong = false;  // each looks along the row, else upward
+    float rowStep = .25f;             // metres between two seeds of a row
+    bool rowAlong = false;            // each looks along the row, else upward
+    std::vector<std::string> recent;  // what was opened or saved, the latest first
+    void noteRecent(const std::string& file);
+};
+
+// Parts of the scene: keys of plants, indices of models and of houses.
+struct Chosen {
+    std::vector<uint32_t> plants, models, houses;
+    bool empty() const { return plants.empty() && models.empty() && houses.empty(); }
 };
 
 struct HouseHit {
@@ -68,8 +78,9 @@ struct Workspace {
     // How the window is: size in ImGui's units, scale of the display, what the panel takes at the left (of the width).
     glm::vec2 window{1280, 720};
     float scale = 1;
-    bool editing = false;  // Tab: the editor is open
-    bool busy = false;     // a tool or a drag in a panel goes on with what is to be one step: nothing may come between
+    bool editing = false;                // Tab: the editor is open
+    bool manual = false, about = false;  // of the menu Help, open
+    bool busy = false;  // a tool or a drag in a panel goes on with what is to be one step: nothing may come between
 
     Tool tool = Tool::look;
     Brush brush;
@@ -95,6 +106,17 @@ struct Workspace {
     uint32_t shownGrammar = 0;  // whose text F4 opens: of the group that is open in the panel
     Layout layout;
 
+    // The graph that is open in the node editor, whether that is, and the time that graphs show.
+    struct {
+        uint32_t open = 0;
+        bool nodes = false;
+        float height = 300;  // of the node editor, at 96 dpi
+        bool playing = false;
+        double playedFrom = 0;  // when the frame below was shown
+        uint32_t playedFrame = 0;
+        uint32_t lastFrame = 250;  // of the bar that is scrubbed; playing goes round there
+    } graphs;
+
     std::string message, error;      // the latest of each
     uint64_t grownRevision = 0;      // of the document that stats tell of
     bool growsWide = false;          // since then something was done that may grow most plants anew
@@ -112,6 +134,9 @@ struct Workspace {
     bool screenshot = false;                                  // the next frame is to be written as a picture
     std::optional<std::pair<uint32_t, std::string>> written;  // a grammar's text that has just gone into its file
 
+    // Of a file: an ImTextureID and its aspect, see ShownPictures. Empty: nobody can show any.
+    std::function<void*(const std::string& file, float& aspect)> pictureOf;
+
     const espalier::scene::Scene& scene() const { return document->scene(); }
     float shift() const;
     // Of the surfaces, else of the houses, world; a metre's cube if there are none.
@@ -120,10 +145,16 @@ struct Workspace {
     std::optional<EspTownInfo> town() const;  // nothing: there is none
     void lookFrom(const EspCamera& from);
     void lookFromStart() { lookFrom(start); }
+    // The view as it is, into a picture's file. False: `error` says why.
+    bool writeView(const std::string& file, uint32_t width, uint32_t height);
+    void keepBookmark(uint32_t digit);      // of the view as it is
+    bool lookFromBookmark(uint32_t digit);  // false: there is none, which is told
     void frameAll();
-    void frameChosen();        // what is chosen with the tool in hand fills the view; everything, if nothing is
-    float panelUnits() const;  // what the panel takes at the left, in ImGui's units
-    float freeAspect() const;  // width by height of what it leaves
+    void frameChosen();          // what is chosen with the tool in hand fills the view; everything, if nothing is
+    float dockUnits() const;     // what the node editor and the bar of time take at the bottom, without the status
+    glm::vec2 viewSize() const;  // of the window without that
+    float panelUnits() const;    // what the panel takes at the left, in ImGui's units
+    float freeAspect() const;    // width by height of what it leaves
     // A message appears where it fails.
     bool perform(const espalier::document::Action& action, uint32_t gesture = 0);
     void takeBack(uint32_t gesture);  // undoes it, if nothing else was done since
@@ -188,6 +219,15 @@ struct Workspace {
     void changeSeeds(const espalier::document::ChangeSeeds& change, uint32_t gesture = 0);
     // Lets the chosen seeds' plants stand as they are, or grow again.
     void freeze(const std::vector<uint32_t>& keys, bool frozen);
+    // The house in the hands of its tool, or the chosen plants.
+    Chosen chosen() const;
+    // Hides what is chosen; all else of its kind; shows whatever is hidden.
+    void hideChosen();
+    void isolateChosen();
+    void showAll();
+    bool anyHidden() const;
+    // Only these are seen of a kind that has some; where that is so already, all are.
+    void isolate(const Chosen& alone);
     void readPath();  // of the branch, from the last growth
     // Whenever the document has grown, though it be to the same plants: their seeds may have been planted anew.
     void noteGrown(bool plants);
@@ -207,6 +247,7 @@ struct Workspace {
 
   private:
     void seePaint(bool seen);  // over the shaded view only
+    std::vector<glm::vec3> seenHouses() const;
     std::vector<glm::vec3> seenGround() const;
     uint32_t gesture_ = 0;
     std::optional<Ray> pointer_;  // that `pointed` is of

@@ -19,6 +19,11 @@ constexpr uint32_t kBatchVertices = 4096, kBatchIndices = 6 * kBatchVertices;
 // Of a ribbon against a tube, in radii: bark of less than two and a half pixels of radius may be one.
 constexpr float kRibbonError = 0.4f;
 
+// Where the CPU picks, all kinds but the first are names in a file.
+bool isBark(uint32_t kind, TerminalChoice choice) {
+    return choice == TerminalChoice::kernels ? shippedMesh(kind) == kMeshBark : kind == kMeshBark;
+}
+
 // Pieces along z.
 float barkSegments(const TerminalData& data, const TerminalLod& lod) {
     std::set<int> levels;
@@ -40,10 +45,13 @@ Status checkRoom(const TerminalData& data) {
 
 }  // namespace
 
-// Far bark is a ribbon that the vertex shader turns to the eye: two triangles a span.
-void addRibbons(TerminalData& data) {
+// Far bark is a ribbon that the vertex shader turns to the eye: two triangles a span. A look of bark that shares the
+// shipped meshes has one already.
+void addRibbons(TerminalData& data, TerminalChoice choice) {
     for (TerminalVariant& variant : data.variants) {
-        if (variant.kind != 0 || variant.lods.empty() || variant.lods.size() >= kMaxLods) continue;
+        if (!isBark(variant.kind, choice) || variant.lods.empty() || variant.lods.size() >= kMaxLods ||
+            variant.lods.back().vertexCount == kRibbonVertices)
+            continue;
         TerminalLod lod;
         lod.firstVertex = uint32_t(data.vertices.size());
         lod.vertexCount = 4;
@@ -63,27 +71,29 @@ void addRibbons(TerminalData& data) {
 Result<Terminals> Terminals::create(Device& device, TerminalData data, TerminalChoice choice) {
     Terminals terminals;
     terminals.data_ = std::move(data);
-    addRibbons(terminals.data_);
+    addRibbons(terminals.data_, choice);
     const bool kernels = choice == TerminalChoice::kernels;
     if (kernels)
         if (Status s = checkRoom(terminals.data_); !s) return s.failure();
-    if (Status s = terminals.makeTable(device, kernels); !s) return s.failure();
+    if (Status s = terminals.makeTable(device, choice); !s) return s.failure();
     if (kernels)
         if (Status s = terminals.makeKernelTable(device); !s) return s.failure();
     if (Status s = terminals.makePictures(device); !s) return s.failure();
     return terminals;
 }
 
-Status Terminals::makeTable(Device& device, bool repeats) {
-    std::stable_sort(data_.variants.begin(), data_.variants.end(),
-                     [](const TerminalVariant& a, const TerminalVariant& b) { return a.kind < b.kind; });
+Status Terminals::makeTable(Device& device, TerminalChoice choice) {
+    const bool repeats = choice == TerminalChoice::kernels;
+    std::ranges::stable_sort(data_.variants, {}, [&](const TerminalVariant& variant) {
+        return std::pair(!isBark(variant.kind, choice), variant.kind);
+    });
     table_.kinds.resize(data_.kinds.size());
     std::vector<uint32_t> batches;
     for (const TerminalVariant& variant : data_.variants) {
         require(variant.kind < data_.kinds.size() && !variant.lods.empty(), "a terminal variant has a kind and a LOD");
         KindRecord& kind = table_.kinds[variant.kind];
         if (kind.variantCount++ == 0) kind.firstVariant = uint32_t(table_.variants.size());
-        kind.bark = variant.kind == 0;
+        kind.bark = isBark(variant.kind, choice);
         VariantRecord& record = table_.variants.emplace_back();
         record.firstBucket = uint32_t(table_.buckets.size());
         record.lodCount = uint32_t(std::min<size_t>(variant.lods.size(), kMaxLods));
@@ -104,6 +114,7 @@ Status Terminals::makeTable(Device& device, bool repeats) {
         }
         if (kind.bark) table_.barkBuckets = uint32_t(table_.buckets.size());
     }
+    if (repeats) fillOwnKinds();
 
     auto make = [&](Buffer& buffer, const char* name, const auto& values) -> Status {
         auto made = makeBuffer(device, name, values);
@@ -118,6 +129,14 @@ Status Terminals::makeTable(Device& device, bool repeats) {
     }
     if (Status s = make(indices_, "terminal indices", data_.indices); !s) return s;
     return make(batches_, "terminal batches", batches);
+}
+
+// What has grown with a look that is there no more is drawn as shipped until it grows anew, or for as long as it is
+// frozen.
+void Terminals::fillOwnKinds() {
+    table_.kinds.resize(kMaxTerminalKinds);
+    for (uint32_t kind = kOwnMeshes; kind < kMaxTerminalKinds; ++kind)
+        if (table_.kinds[kind].variantCount == 0) table_.kinds[kind] = table_.kinds[shippedMesh(kind)];
 }
 
 Status Terminals::makeKernelTable(Device& device) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -55,6 +57,17 @@ Result<TerminalData> readTerminals(const std::filesystem::path& path,
 Result<TerminalData> parseTerminals(std::span<const std::byte> file, const std::string& name,
                                     std::vector<std::string> kinds = standardTerminalKinds());
 
+// How one grammar's terminals of a kind look in place of the shipped ones.
+struct TerminalLook {
+    uint32_t kind = 0;                 // its own, see kOwnMeshes
+    std::optional<TerminalData> mesh;  // all of its variants, whatever their kinds; none: the shipped meshes
+    std::optional<TerminalPicture>
+        picture;                      // in place of the meshes' own; of leaves without a mesh: a card that shows it
+    std::optional<glm::vec3> colour;  // linear; multiplies pictures that somebody chose, and replaces a shipped hue
+};
+// The shipped meshes with these looks beside them (terminal_looks.cpp).
+TerminalData withLooks(const TerminalData& shipped, std::span<const TerminalLook> looks);
+
 // Fills each LOD's error by measuring its distance to the finest one, where the file doesn't say when it is good
 // enough.
 void measureTerminalErrors(TerminalData& data);
@@ -90,8 +103,9 @@ class Terminals {
     const Image& normalMap(uint32_t material) const;
 
   private:
-    // repeats: each level's indices, so that an instance is a batch; else the pattern is one mesh.
-    Status makeTable(Device& device, bool repeats);
+    // For kernels each level's indices repeat, so that an instance is a batch; else the pattern is one mesh.
+    Status makeTable(Device& device, TerminalChoice choice);
+    void fillOwnKinds();
     Status makeKernelTable(Device& device);
     Status makePictures(Device& device);
 

@@ -261,7 +261,7 @@ class Reader {
 }  // namespace
 
 std::vector<std::string> standardTerminalKinds() {
-    return {"bark", "leaf", "pebble"};
+    return {"bark", "leaf", "pebble", "oval", "blossom", "tuft"};
 }
 
 Result<TerminalData> readTerminals(const std::filesystem::path& path, std::vector<std::string> kinds) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "runtime/core/srgb.hpp"
@@ -24,23 +25,25 @@ bool holdsRoots(const Device& device) {
     return device.info().cpu;
 }
 
+size_t addColorTexture(Upload& upload, std::string name, uint32_t width, uint32_t height, std::span<const uint8_t> rgba,
+                       bool roots) {
+    const auto bytes = std::as_bytes(rgba);
+    std::vector<std::byte> texels(bytes.begin(), bytes.end());
+    if (roots) {
+        static const std::array<uint8_t, 256> table = rootsOfSrgb();
+        for (size_t i = 0; i < texels.size(); ++i)
+            if (i % 4 != 3) texels[i] = std::byte(table[size_t(texels[i])]);
+    }
+    const VkFormat format = roots ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R8G8B8A8_SRGB;
+    return upload.addImage(std::move(name), format, width, height, std::move(texels));
+}
+
 Result<Image> makeColorTexture(Device& device, std::string_view name, uint32_t width, uint32_t height,
                                std::span<const uint8_t> rgba) {
-    ImageDesc desc{.name = name, .format = VK_FORMAT_R8G8B8A8_SRGB, .width = width, .height = height};
-    desc.levels = 0;
-    std::vector<uint8_t> roots;
-    if (holdsRoots(device)) {
-        desc.format = VK_FORMAT_R8G8B8A8_UNORM;
-        static const std::array<uint8_t, 256> table = rootsOfSrgb();
-        roots.assign(rgba.begin(), rgba.end());
-        for (size_t i = 0; i < roots.size(); ++i)
-            if (i % 4 != 3) roots[i] = table[roots[i]];
-        rgba = roots;
-    }
-    Result<Image> image = Image::create(device, desc);
-    if (!image) return image;
-    if (Status s = fillImage(device, *image, std::as_bytes(rgba)); !s) return s.failure();
-    return image;
+    Upload upload;
+    const size_t image = addColorTexture(upload, std::string(name), width, height, rgba, holdsRoots(device));
+    if (Status done = upload.run(device); !done) return done.failure();
+    return upload.takeImage(image);
 }
 
 }  // namespace espalier

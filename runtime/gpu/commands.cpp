@@ -137,8 +137,9 @@ Result<Commands> Commands::begin(Device& device, std::string_view name) {
     return c;
 }
 
-Commands Commands::into(Device& device, VkCommandBuffer hostCommands, uint64_t frame) {
+Commands Commands::into(Device& device, VkCommandBuffer hostCommands, uint64_t frame, bool within) {
     Commands c;
+    c.within_ = within;
     c.device_ = &device;
     c.handle_ = hostCommands;
     c.serial_ = device.retireQueue().beginRecording();
@@ -150,7 +151,8 @@ Commands::Commands(Commands&& other) noexcept
     : device_(std::exchange(other.device_, nullptr)),
       handle_(other.handle_),
       serial_(other.serial_),
-      ours_(std::exchange(other.ours_, false)) {}
+      ours_(std::exchange(other.ours_, false)),
+      within_(other.within_) {}
 
 Commands::~Commands() {
     if (device_ && ours_) device_->retireQueue().recordingDiscarded(serial_);

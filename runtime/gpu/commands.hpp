@@ -38,7 +38,8 @@ class Commands {
     static Result<Commands> begin(Device& device, std::string_view name);
     // Records into the host's command buffer (in the recording state, of the device's queue family, outside of
     // rendering unless a DrawPass says so). Objects dropped from now on live until hostFrameDone(frame).
-    static Commands into(Device& device, VkCommandBuffer hostCommands, uint64_t frame);
+    // within: rendering that the host has begun; nothing of it is timed.
+    static Commands into(Device& device, VkCommandBuffer hostCommands, uint64_t frame, bool within = false);
 
     Commands(Commands&& other) noexcept;
     Commands& operator=(Commands&&) = delete;
@@ -74,13 +75,15 @@ class Commands {
     Device& device() const { return *device_; }
     VkCommandBuffer handle() const { return handle_; }
     uint64_t serial() const { return serial_; }
+    bool hosted() const { return !ours_; }
+    bool within() const { return within_; }
 
   private:
     Commands() = default;
     Device* device_ = nullptr;
     VkCommandBuffer handle_ = VK_NULL_HANDLE;
     uint64_t serial_ = 0;  // its number among the device's recordings
-    bool ours_ = false;
+    bool ours_ = false, within_ = false;
 };
 
 // The push data of a dispatch or draw: a trivially copyable struct, checked against the program's size.

@@ -32,7 +32,7 @@ namespace espalier {
     F(vkWaitSemaphores) F(vkGetSemaphoreCounterValue) F(vkCreateCommandPool) F(vkDestroyCommandPool) \
     F(vkResetCommandPool) F(vkAllocateCommandBuffers) F(vkBeginCommandBuffer) F(vkEndCommandBuffer) \
     F(vkCreateQueryPool) F(vkDestroyQueryPool) F(vkResetQueryPool) F(vkGetQueryPoolResults) \
-    F(vkCmdWriteTimestamp2) F(vkCmdPipelineBarrier2) F(vkCmdBindPipeline) F(vkCmdPushConstants) F(vkCmdDispatch) \
+    F(vkCmdResetQueryPool) F(vkCmdWriteTimestamp2) F(vkCmdPipelineBarrier2) F(vkCmdBindPipeline) F(vkCmdPushConstants) F(vkCmdDispatch) \
     F(vkCmdDispatchIndirect) F(vkCmdFillBuffer) F(vkCmdUpdateBuffer) F(vkCmdCopyBuffer) \
     F(vkCmdCopyBufferToImage) F(vkCmdCopyImageToBuffer) F(vkCmdBlitImage) F(vkCmdBeginRendering) \
     F(vkCmdEndRendering) F(vkCmdSetViewport) F(vkCmdSetScissor) F(vkCmdSetCullMode) F(vkCmdSetFrontFace) F(vkCmdBindIndexBuffer) F(vkCmdBindVertexBuffers) F(vkCmdDraw) \

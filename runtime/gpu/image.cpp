@@ -143,6 +143,7 @@ Result<Sampler> Sampler::create(Device& device, const SamplerDesc& desc) {
     info.mipmapMode = desc.filter == VK_FILTER_LINEAR && desc.blendMips ? VK_SAMPLER_MIPMAP_MODE_LINEAR
                                                                         : VK_SAMPLER_MIPMAP_MODE_NEAREST;
     info.addressModeU = info.addressModeV = info.addressModeW = desc.address;
+    if (desc.addressV != VK_SAMPLER_ADDRESS_MODE_MAX_ENUM) info.addressModeV = desc.addressV;
     info.maxLod = desc.mips ? VK_LOD_CLAMP_NONE : 0;
     info.maxAnisotropy = std::min(desc.anisotropy, device.info().maxAnisotropy);
     info.anisotropyEnable = info.maxAnisotropy > 1;

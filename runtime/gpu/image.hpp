@@ -70,6 +70,7 @@ struct SamplerDesc {
     std::string_view name;
     VkFilter filter = VK_FILTER_LINEAR;
     VkSamplerAddressMode address = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    VkSamplerAddressMode addressV = VK_SAMPLER_ADDRESS_MODE_MAX_ENUM;  // as `address`
     bool mips = true;
     bool blendMips = true;       // else the nearer of two
     float anisotropy = 1;        // limited to what the device has

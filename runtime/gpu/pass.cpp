@@ -53,7 +53,8 @@ Pass::Pass(Commands& commands, std::string_view name, bool timed)
         label.pLabelName = text.c_str();
         vk_.vkCmdBeginDebugUtilsLabelEXT(cmd_, &label);
     }
-    if (timed) timer_ = commands.device().timers().start(cmd_, commands.serial(), name);
+    if (timed && !commands.within())
+        timer_ = commands.device().timers().start(cmd_, commands.serial(), name, commands.hosted());
 }
 
 Pass::~Pass() {

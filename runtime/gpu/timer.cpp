@@ -14,9 +14,12 @@ TimerRing::~TimerRing() {
     for (Pool& pool : pools_) device_.vk().vkDestroyQueryPool(device_.handle(), pool.queries, nullptr);
 }
 
-uint32_t TimerRing::poolFor(uint64_t serial) {
-    for (uint32_t i = 0; i < pools_.size(); ++i)
-        if (pools_[i].serial == serial && pools_[i].names.size() < kPairs) return i;
+uint32_t TimerRing::poolFor(VkCommandBuffer commands, uint64_t serial, bool again) {
+    for (uint32_t i = 0; i < pools_.size(); ++i) {
+        if (pools_[i].serial != serial) continue;
+        if (pools_[i].names.size() < kPairs) return i;
+        if (again) return kNoMark;  // it may be within rendering now, where no other pool can be reset
+    }
     auto vacant = std::ranges::find(pools_, 0u, &Pool::serial);
     if (vacant == pools_.end()) {
         VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
@@ -30,13 +33,14 @@ uint32_t TimerRing::poolFor(uint64_t serial) {
         vacant = pools_.end() - 1;
     }
     device_.vk().vkResetQueryPool(device_.handle(), vacant->queries, 0, kPairs * 2);
+    if (again) device_.vk().vkCmdResetQueryPool(commands, vacant->queries, 0, kPairs * 2);
     vacant->serial = serial;
     return uint32_t(vacant - pools_.begin());
 }
 
-uint32_t TimerRing::start(VkCommandBuffer commands, uint64_t serial, std::string_view name) {
+uint32_t TimerRing::start(VkCommandBuffer commands, uint64_t serial, std::string_view name, bool again) {
     if (device_.info().timestampNanoseconds == 0) return kNoMark;
-    const uint32_t index = poolFor(serial);
+    const uint32_t index = poolFor(commands, serial, again);
     if (index == kNoMark) return kNoMark;
     Pool& pool = pools_[index];
     const uint32_t pair = uint32_t(pool.names.size());

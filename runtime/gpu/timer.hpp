@@ -17,8 +17,9 @@ class TimerRing {
     TimerRing(const TimerRing&) = delete;
     TimerRing& operator=(const TimerRing&) = delete;
 
-    // Writes the first timestamp and returns a mark for stop(). Without timestamps both do nothing.
-    uint32_t start(VkCommandBuffer commands, uint64_t serial, std::string_view name);
+    // Writes the first timestamp and returns a mark for stop(). Without timestamps both do nothing. again: the
+    // recording may be submitted several times; then its first pass isn't within rendering.
+    uint32_t start(VkCommandBuffer commands, uint64_t serial, std::string_view name, bool again);
     void stop(VkCommandBuffer commands, uint32_t mark);
     // Reads the pools of all recordings before `oldestPending` and sets them free. A software device that is at work
     // lets nobody read before it is done: times are those of a recording that nothing was recorded beside, then.
@@ -33,7 +34,7 @@ class TimerRing {
         uint64_t serial = 0;  // of its recording, 0: free
         std::vector<std::string> names;
     };
-    uint32_t poolFor(uint64_t serial);
+    uint32_t poolFor(VkCommandBuffer commands, uint64_t serial, bool again);
     void read(Pool& pool);
     static void setFree(Pool& pool);
     void record(const std::string& name, double milliseconds, uint64_t serial);

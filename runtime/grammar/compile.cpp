@@ -10,7 +10,7 @@ namespace espalier {
 namespace {
 
 // Part of the content hash: raise it whenever the same text compiles to another map.
-constexpr uint64_t kCompilerVersion = 11;
+constexpr uint64_t kCompilerVersion = 12;
 
 uint64_t contentHashOf(const std::vector<std::string>& sources, const std::vector<std::string>& names,
                        const CompileOptions& options) {

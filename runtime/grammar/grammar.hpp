@@ -11,6 +11,7 @@
 
 #include "runtime/core/result.hpp"
 #include "shaders/shared/rule_map.h"
+#include "shaders/shared/terminal_meshes.h"
 
 // Grammar text -> rule map. The language is described in docs/grammar.md, the map in shaders/shared/rule_map.h.
 namespace espalier {
@@ -63,8 +64,7 @@ struct TerminalMesh {
     bool bark = false;
 };
 
-// The meshes there are by default, by TerminalRecord::mesh.
-inline constexpr uint32_t kMeshBark = 0, kMeshLeaf = 1, kMeshPebble = 2;
+// The meshes there are by default, by TerminalRecord::mesh (terminal_meshes.h).
 std::vector<TerminalMesh> standardTerminalMeshes();
 
 // Text of an included file, or why there is none. `name` is relative to the main file's folder.
@@ -118,6 +118,12 @@ class RuleMap {
     // What the statement `width` says with the parameters as they stand: metres, finite, at least 0; 0 without one.
     // Growth takes the surface as coarse as suits shapes of this width (GrowthInputs::widths).
     float width() const { return width_; }
+
+    // The shipped meshes of plants' terminals that it draws: bit i, of kMesh... i.
+    uint32_t terminalMeshes() const;
+    // Draws another mesh in place of a shipped one from now on: a look of its own (kOwnMeshes), or the shipped one
+    // again.
+    void setTerminalMesh(uint32_t shipped, uint32_t mesh);
 
     // All that its rules and terminals ask of a place: kInput... bits.
     uint32_t inputs() const;

@@ -35,7 +35,7 @@ class ExtrudeLowering {
         Scope scope;
         scope.lift = scope.turn = scope.pitch = g_.zero();
         scope.t = g_.constant(0.5f);
-        scope.tint = g_.zero();
+        scope.tint = g_.constant(0.4f);  // neither old nor young
         for (Node& n : scope.colour) n = g_.one();
         repeat_ = Graph::kNone;
         walk(extruded, env, g_.one(), scope, 0);

@@ -4,6 +4,7 @@
 
 #include "runtime/grammar/rule_map_layout.hpp"
 #include "shaders/shared/interpreter.h"
+#include "shaders/shared/terminal_meshes.h"
 
 namespace espalier {
 namespace {
@@ -230,6 +231,21 @@ uint32_t featuresOf(const RuleMap& map, const RuleMapRef& ref) {
 
 }  // namespace
 
+uint32_t RuleMap::terminalMeshes() const {
+    uint32_t meshes = 0;
+    for (uint32_t i = 0; i < sections_[kSectionTerminals].count; ++i)
+        meshes |= 1u << shippedMesh(RuleMapAccess::record<TerminalRecord>(*this, kSectionTerminals, i).mesh);
+    return meshes;
+}
+
+void RuleMap::setTerminalMesh(uint32_t shipped, uint32_t mesh) {
+    for (uint32_t i = 0; i < sections_[kSectionTerminals].count; ++i) {
+        uint32_t& drawn = words_[sections_[kSectionTerminals].offset + i * kRecordWords[kSectionTerminals] +
+                                 wordOf(offsetof(TerminalRecord, mesh))];
+        if (shippedMesh(drawn) == shipped) drawn = mesh;
+    }
+}
+
 uint32_t RuleMap::inputs() const {
     return askedBy(*this, ref()).inputs;
 }
@@ -270,7 +286,7 @@ RuleMapRef RuleMap::refAt(uint64_t address) const {
 }
 
 std::vector<TerminalMesh> standardTerminalMeshes() {
-    return {{"bark", true}, {"leaf", false}, {"pebble", false}};
+    return {{"bark", true}, {"leaf", false}, {"pebble", false}, {"oval", false}, {"blossom", false}, {"tuft", false}};
 }
 
 }  // namespace espalier

@@ -244,6 +244,44 @@ const BlockInfo* findBlock(const Element& element) {
     return block != nullptr && block->kind == Block::line && !element.hasItems ? nullptr : block;
 }
 
+namespace {
+
+std::vector<WordInfo> gatherWords(GrammarKind kind) {
+    const bool roofs = kind == GrammarKind::roofs, patterns = kind == GrammarKind::patterns;
+    std::vector<WordInfo> words;
+    for (const BlockInfo& b : kBlocks) {
+        const bool marches = b.kind == Block::marching || b.kind == Block::branch;
+        if (marches ? !roofs && !patterns : isOfPatterns(b.kind) ? patterns : b.kind == Block::repeat || roofs)
+            words.push_back({b.name, b.usage});
+    }
+    for (const CommandInfo& c : kCommands) {
+        const bool ofRoofs = c.kind == Command::drop || c.kind == Command::moss;
+        if (c.name.size() > 1 || (c.name[0] != '[' && c.name[0] != ']'))
+            if (ofRoofs ? roofs : !isOfPatterns(c.kind) || patterns) words.push_back({c.name, c.usage});
+    }
+    for (const FunctionInfo& f : kFunctions) words.push_back({f.name, f.usage});
+    if (roofs) {
+        for (const AccessorInfo& a : kRoofAccessors) words.push_back({a.name, {}});
+        for (const auto& word : kRoofWords) words.push_back({word.name, {}});
+    } else {
+        for (const AccessorInfo& a : kAccessors) words.push_back({a.name, {}});
+    }
+    if (patterns)
+        for (const auto& query : kQueryWords) words.push_back({query.name, {}});
+    for (const DirectionInfo& d : kDirections) words.push_back({d.name, {}});
+    for (const std::string_view word : kOtherWords)
+        if (word != "field" || patterns) words.push_back({word, {}});
+    return words;
+}
+
+}  // namespace
+
+const std::vector<WordInfo>& wordsOf(GrammarKind kind) {
+    static const std::vector<WordInfo> all[] = {gatherWords(GrammarKind::plants), gatherWords(GrammarKind::roofs),
+                                                gatherWords(GrammarKind::patterns)};
+    return all[size_t(kind)];
+}
+
 std::string reservedFor(std::string_view name) {
     std::string quoted = "'" + std::string(name) + "' ";
     const BlockInfo* block = findBlock(name);

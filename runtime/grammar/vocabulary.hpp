@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/grammar/ast.hpp"
+#include "runtime/grammar/grammar.hpp"
 
 // The words of the language, as tables. A new rule kind, command, function or accessor is a row here and a case in
 // the lowering; lexer and parser stay as they are.
@@ -118,6 +119,12 @@ std::string reservedFor(std::string_view name);
 // What F.name asks of a field F, as kQuery... counts; kNoIndex: nothing.
 uint32_t findQuery(std::string_view name);
 std::vector<std::string> queryNames();
+
+// A word for who writes a grammar of a kind, and how it is written; the texts end in zeros and stay.
+struct WordInfo {
+    std::string_view name, usage;  // usage: may be empty
+};
+const std::vector<WordInfo>& wordsOf(GrammarKind kind);
 
 std::vector<std::string> functionNames();
 std::vector<std::string> accessorNames();

@@ -13,7 +13,7 @@ Version nextVersion() noexcept {
 
 namespace graph {
 
-Node::Node(std::initializer_list<Node*> inputs) : inputs_(inputs) {
+Node::Node(std::vector<Node*> inputs) : inputs_(std::move(inputs)) {
     for (Node* input : inputs_) input->readers_.push_back(this);
 }
 

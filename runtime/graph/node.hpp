@@ -30,7 +30,8 @@ class Node {
   public:
     Node() = default;
     // One that is made from these.
-    explicit Node(std::initializer_list<Node*> inputs);
+    explicit Node(std::initializer_list<Node*> inputs) : Node(std::vector<Node*>(inputs)) {}
+    explicit Node(std::vector<Node*> inputs);
     ~Node();
     Node(const Node&) = delete;
     Node& operator=(const Node&) = delete;

@@ -1,9 +1,9 @@
 #pragma once
 
-// The kernels of plants, roofs and patterns as native code, a row each by the name of their shader: their own text
-// compiled as C++ (-ffp-contract=off), so they leave the same bits. On devices that run shaders on the CPU native code
-// runs over the very memory that shaders would use: lanes of such a device share one core, and code that can leave out
-// what a lane doesn't need is faster there.
+// The kernels of plants, roofs, patterns and the graph as native code, a row each by the name of their shader: their
+// own text compiled as C++ (-ffp-contract=off), so they leave the same bits. On devices that run shaders on the CPU
+// native code runs over the very memory that shaders would use: lanes of such a device share one core, and code that
+// can leave out what a lane doesn't need is faster there.
 
 #include <cstdint>
 #include <span>
@@ -34,7 +34,8 @@ struct HostRow {
     std::string_view shader;
     HostKernel run;
 };
-extern const std::span<const HostRow> kGrowthRows, kRegrowthRows, kGapRows, kRoofRows, kPatternRows;
+extern const std::span<const HostRow> kGrowthRows, kRegrowthRows, kGapRows, kRoofRows, kPatternRows, kNodeRows,
+    kFluidRows;
 
 // The kernel of a function over all of a pass, or over one wave.
 template <class Env, void (*Pass)(Env, const HostRun&)>

@@ -2,6 +2,7 @@
 // Dabs of one dispatch are applied in order by each texel for itself; blocks are kept before they are first touched.
 #include "runtime/paint/painter.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "shaders/paint/smooth_records.h"
@@ -324,9 +325,53 @@ Status Painter::swap(std::span<const PaintJob> jobs) {
     return submitted ? Status(Done{}) : submitted.failure();
 }
 
+void BlockRecord::swapKept(std::span<float> layer) {
+    for (size_t i = 0; i < blocks_.size(); ++i)
+        std::swap_ranges(kept_.begin() + std::ptrdiff_t(i * kBlockTexels),
+                         kept_.begin() + std::ptrdiff_t((i + 1) * kBlockTexels),
+                         layer.begin() + std::ptrdiff_t(blocks_[i] * kBlockTexels));
+}
+
+void BlockRecord::letGo() {
+    texels_ = {};
+    places_ = {};
+    slots_ = {};
+}
+
+Status Painter::keep(const Canvas& canvas, BlockRecord& record, std::span<float> layer) {
+    record.kept_.clear();
+    const uint32_t count = uint32_t(record.blocks_.size());
+    if (count == 0) return Done{};
+    Result<Buffer> painted = Buffer::create(device_, "painted blocks", count * kBlockBytes);
+    if (!painted) return painted.failure();
+    Result<Commands> commands = Commands::begin(device_, "paint keep");
+    if (!commands) return commands.failure();
+    if (Status uploaded = upload(*commands, record.blocks_); !uploaded) return uploaded;
+    commands->barrier(Use::transfer, Use::compute);
+    {
+        Pass pass(*commands, "paint keep");
+        move(pass, {wordsOf(*canvas.layer), wordsOf(*painted), wordsOf(words_), {}, count, 0, kBlocksSave, 0});
+    }
+    if (Status done = commands->finish(); !done) return done;
+    Result<std::vector<float>> texels = readVector<float>(device_, *painted, 0, size_t(count) * kBlockTexels);
+    if (!texels) return texels.failure();
+    Status before = assign(record.kept_, readVector<float>(device_, record.texels_, 0, size_t(count) * kBlockTexels));
+    if (!before) return before;
+    for (size_t i = 0; i < count; ++i)
+        std::copy_n(texels->begin() + std::ptrdiff_t(i * kBlockTexels), kBlockTexels,
+                    layer.begin() + std::ptrdiff_t(record.blocks_[i] * kBlockTexels));
+    return Done{};
+}
+
+Status Painter::restore(BlockRecord& record) {
+    if (record.blocks_.empty()) return Done{};
+    return assign(record.texels_, makeBuffer(device_, "stroke record", record.kept_));
+}
+
 Result<std::vector<uint64_t>> Painter::close(const Canvas& canvas, BlockRecord& record) {
     record.slots_ = {};
     record.places_ = {};
+    record.kept_.clear();
     Result<std::vector<uint64_t>> changed = differences(canvas, record);
     if (!changed) return changed;
 

@@ -23,16 +23,25 @@ struct Canvas {
     SurfaceBuf surfaces{};  // the table that holds it, needed for smoothing only
 };
 
-// What blocks of one layer held before a stroke touched them: 256 bytes each and 4 for its number.
+// What blocks of one layer held before a stroke touched them: 256 bytes each and 4 for its number; as much again for
+// the host's copy, from which another device gets it.
 class BlockRecord {
   public:
     const std::vector<uint32_t>& blocks() const { return blocks_; }  // in the order in which they were first touched
-    uint64_t bytes() const { return texels_.size() + blocks_.size() * 4; }
+    uint64_t bytes() const { return texels_.size() + blocks_.size() * 4 + kept_.size() * sizeof(float); }
+
+    bool isKept() const { return kept_.size() == blocks_.size() * kBlockTexels; }  // by the host
+    // Exchanges the host's copies of blocks as Painter::swap does on the device. layer: size² floats.
+    void swapKept(std::span<float> layer);
+    void dropKept() { kept_.clear(); }
+    // What lies on a device goes.
+    void letGo();
 
   private:
     friend class Painter;
     std::vector<uint32_t> blocks_;
     Buffer texels_;
+    std::vector<float> kept_;  // the host's copy of these texels; empty: there is none
     // While the stroke goes on:
     std::vector<uint32_t> slots_;  // [block]: where it is among blocks_, or kNoSlot
     Buffer places_;                // where smoothing looks, 1,536 bytes a block
@@ -68,6 +77,11 @@ class Painter {
     // Drops from a record the blocks that are as they were, and gives back the room it doesn't need; from then on it
     // takes no more dabs. Gives of each block that is left the texels that changed, bit 8 y + x. Waits for the GPU.
     Result<std::vector<uint64_t>> close(const Canvas& canvas, BlockRecord& record);
+    // Copies to the host what a closed record holds, and what the layer now has in the record's blocks: into `layer`,
+    // size² floats. Waits for the GPU. On failure the record has no copy, and `layer` is as it was.
+    Status keep(const Canvas& canvas, BlockRecord& record, std::span<float> layer);
+    // Puts on the device what the host has kept of a closed record.
+    Status restore(BlockRecord& record);
     // Of each block of a record the texels that differ from the layer's, bit 8 y + x. Waits for the GPU.
     Result<std::vector<uint64_t>> differences(const Canvas& canvas, const BlockRecord& record);
     // Exchanges the layers' blocks with the records', bit for bit: twice is as before. All of them or none. The jobs'

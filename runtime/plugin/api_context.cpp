@@ -1,9 +1,8 @@
 // Creation, destruction and errors of contexts, and the tables that kernels read a scene by.
 #include "runtime/core/platform.hpp"
-#include "runtime/gpu/commands.hpp"
 #include "runtime/gpu/features.hpp"
-#include "runtime/plugin/checked_devices.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/device_parts.hpp"
 #include "runtime/plugin/errors.hpp"
 
 namespace espalier {
@@ -32,46 +31,11 @@ Log logInto(EspLogFn log, void* user) {
     };
 }
 
-// Returns when the GPU is done with all that was submitted, a host's frames included: an empty submission is behind
-// them.
-Status finishFrames(Device& device, const char* name) {
-    device.hostSubmitted();
-    Result<Commands> commands = Commands::begin(device, name);
-    if (!commands) return commands.failure();
-    return commands->finish();
-}
-
-Result<std::unique_ptr<Device>> makeDevice(const EspContextDef& def, const Log& log) {
-    if (!def.host) {
-        DeviceOptions options;
-        options.validation = def.validation != 0;
-        options.log = log;
-        return Device::create(options);
-    }
-    HostDevice host;
-    host.getInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(def.host->getInstanceProcAddr);
-    host.instance = static_cast<VkInstance>(def.host->instance);
-    host.physicalDevice = static_cast<VkPhysicalDevice>(def.host->physicalDevice);
-    host.device = static_cast<VkDevice>(def.host->device);
-    host.queue = static_cast<VkQueue>(def.host->queue);
-    host.queueFamily = def.host->queueFamily;
-    host.debugUtils = def.host->debugUtils != 0;
-    host.made = static_cast<const VkDeviceCreateInfo*>(def.host->deviceInfo);
-    host.pipelineCache = reinterpret_cast<VkPipelineCache>(def.host->pipelineCache);
-    host.log = log;
-    return Device::adopt(host);
-}
-
 EspResult create(EspContextDef def, EspContext** out) {
     const EspHostDevice host = takenOr("espCreate: host", def.host, EspHostDevice{});
     if (def.host) def.host = &host;
-    if (def.host &&
-        (!host.getInstanceProcAddr || !host.instance || !host.physicalDevice || !host.device || !host.queue))
-        return failAlone(ESP_INVALID_ARGUMENT, "espCreate: a handle of the host's device is null");
-    if (def.host && !host.deviceInfo)
-        return failAlone(ESP_INVALID_ARGUMENT,
-                         "espCreate: EspHostDevice::deviceInfo is null: it is the VkDeviceCreateInfo that the device "
-                         "was made with");
+    if (def.host)
+        if (const char* mistake = mistakeIn(host)) throw Refusal{std::string("espCreate: ") + mistake};
     auto context = std::make_unique<EspContext>();
     context->log = logInto(def.log, def.logUser);
     setDefaults(context->grow);
@@ -83,31 +47,18 @@ EspResult create(EspContextDef def, EspContext** out) {
     }
     if (def.cacheFolder) context->cacheFolder = def.cacheFolder;
 
-    Result<std::unique_ptr<Device>> device = makeDevice(def, context->log);
-    if (!device) return failAlone(ESP_NO_DEVICE, device.failure().text());
-    context->device = std::move(*device);
-    if (!def.skipSelfCheck)
-        if (Status checked = checkDevice(*context->device, context->cacheFolder); !checked)
-            return failAlone(gpuCode(*context, checked.failure()), checked.failure().text());
-
     const std::filesystem::path folder = def.files ? std::filesystem::path() : contentFolder();
-    const std::filesystem::path terminals = def.terminals ? def.terminals : folder / "terminals.glb";
-    context->roofMeshFile = std::filesystem::path(terminals).replace_filename("roofs.glb");
-    context->patterns.shipped = std::filesystem::path(terminals).replace_filename("pieces.glb");
-    std::vector<std::byte> file;
-    if (EspResult unread = readWhole(context.get(), terminals.string(), file))
-        return failAlone(unread, "terminal meshes: " + context->error);
-    Result<TerminalData> meshes = parseTerminals(file, terminals.string());
-    if (!meshes) return failAlone(ESP_INVALID_CONTENT, meshes.failure().text());
-
-    Result<std::unique_ptr<Renderer>> renderer = Renderer::create(*context->device, std::move(*meshes));
-    if (!renderer) return failAlone(gpuCode(*context, renderer.failure()), renderer.failure().text());
-    context->renderer = std::move(*renderer);
-    // Room for a well-grown scene, so that only large ones have to grow twice.
-    const GrowthRoom room{.chunks = 32768, .nodes = 262144, .branches = 32768, .leaves = 262144, .items = 32768};
-    Result<std::unique_ptr<Growth>> growth = Growth::create(*context->device, room);
-    if (!growth) return failAlone(gpuCode(*context, growth.failure()), growth.failure().text());
-    context->growth = std::move(*growth);
+    context->terminals = def.terminals ? def.terminals : folder / "terminals.glb";
+    context->roofMeshFile = std::filesystem::path(context->terminals).replace_filename("roofs.glb");
+    context->patterns.shipped = std::filesystem::path(context->terminals).replace_filename("pieces.glb");
+    context->validation = def.validation != 0;
+    context->checksDevice = def.skipSelfCheck == 0;
+    DeviceParts parts;
+    std::string why;
+    if (EspResult bad = makeDeviceParts(*context, def.host, parts, why)) return failAlone(bad, why);
+    context->device = std::move(parts.device);
+    context->renderer = std::move(parts.renderer);
+    context->growth = std::move(parts.growth);
     *out = context.release();
     return ESP_OK;
 }
@@ -154,9 +105,9 @@ EspResult fail(const EspContext* context, EspResult code, std::string message) {
     return code;
 }
 
-EspResult gpuCode(const EspContext& context, const Failure& failure) {
+EspResult gpuCode(const Device& device, const Failure& failure) {
     using Cause = Failure::Cause;
-    if (context.device->lost() || failure.cause == Cause::lost) return ESP_DEVICE_LOST;
+    if (device.lost() || failure.cause == Cause::lost) return ESP_DEVICE_LOST;
     if (failure.cause == Cause::fault) return ESP_NO_DEVICE;
     return failure.cause == Cause::driver ? ESP_DRIVER_FAILED : ESP_OUT_OF_MEMORY;
 }
@@ -166,7 +117,7 @@ EspResult failContent(const EspContext* context, const Failure& failure) {
 }
 
 EspResult failGpu(const EspContext* context, const Failure& failure) {
-    return fail(context, gpuCode(*context, failure), failure.text());
+    return fail(context, gpuCode(*context->device, failure), failure.text());
 }
 
 EspResult failWork(const EspContext* context, const Failure& failure) {
@@ -250,6 +201,10 @@ const char* espVersion(void) {
 
 const char* espDeviceName(const EspContext* context) {
     return context ? context->device->info().name.c_str() : "";
+}
+
+const char* espDriverName(const EspContext* context) {
+    return context ? context->device->info().driver.c_str() : "";
 }
 
 }  // extern "C"

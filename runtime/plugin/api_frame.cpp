@@ -5,6 +5,7 @@
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/plugin/context.hpp"
+#include "runtime/plugin/dense_part.hpp"
 #include "runtime/plugin/errors.hpp"
 #include "runtime/plugin/frame_inputs.hpp"
 #include "runtime/plugin/given.hpp"
@@ -52,18 +53,41 @@ namespace {
 
 constexpr uint32_t kMostCharts = 65535;
 
-// A camera that shows all surfaces and houses; its contract is espFrameAll's.
+struct Box {
+    glm::vec3 low, high;
+};
+
+// Of the town's dense part.
+std::vector<Box> houseBoxes(const EspContext& context) {
+    std::vector<Box> boxes, dense;
+    std::vector<PlanBox> plan;
+    for (uint32_t i = 0; i < espHouseCount(&context); ++i)
+        if (EspHouseInfo house; espHouseInfo(&context, i, &house) == ESP_OK) {
+            boxes.push_back({vec(house.boundsMin), vec(house.boundsMax)});
+            plan.push_back({{boxes.back().low.x, boxes.back().low.z}, {boxes.back().high.x, boxes.back().high.z}});
+        }
+    for (size_t i : densePart(plan)) dense.push_back(boxes[i]);
+    return dense;
+}
+
+// A camera that shows all surfaces, houses and graphs; its contract is espFrameAll's.
 EspCamera frameAll(const EspContext& context) {
     EspCamera camera{};
     setDefaults(camera);
-    if (context.surfaces.size() == 0 && !context.town) return camera;
+    const GraphDraw* graph = context.renderer->graph();
+    const bool graphed = graph && !graph->empty();
+    if (context.surfaces.size() == 0 && !context.town && !graphed) return camera;
+    const std::vector<Box> houses = houseBoxes(context);
     const auto eachBox = [&](auto&& take) {
-        for (uint32_t i = 0; i < espHouseCount(&context); ++i)
-            if (EspHouseInfo house; espHouseInfo(&context, i, &house) == ESP_OK)
-                take(vec(house.boundsMin), vec(house.boundsMax));
+        for (const Box& house : houses) take(house.low, house.high);
         context.surfaces.forEach([&](uint32_t, const PlacedSurface& surface) {
             take(vec(surface.info.boundsMin), vec(surface.info.boundsMax));
         });
+        if (graphed) {
+            glm::vec3 low(1e30f), high(-1e30f);
+            graph->bounds(low, high);
+            take(low, high);
+        }
     };
     glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
     eachBox([&](glm::vec3 from, glm::vec3 to) { low = glm::min(low, from), high = glm::max(high, to); });

@@ -7,6 +7,7 @@
 #include "runtime/core/undo.hpp"
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/looks.hpp"
 #include "runtime/plugin/painting.hpp"
 #include "runtime/plugin/seeds.hpp"
 #include "runtime/plugin/town_growth.hpp"
@@ -65,6 +66,7 @@ Result<LoadedGrammar> prepare(EspContext& context, const EspGrammarDef& def, uin
             if (auto index = grammar.map.findParam(param.name))
                 if (grammar.map.params()[*index].kind == param.kind)
                     grammar.map.setParam(*index, std::span(param.value, numbersOf(param)));
+    takeLooks(context, oldId, grammar.map);
     if (Status bound = bindLayers(context, grammar, oldId); !bound) return bound.failure();
     grammar.compileMs = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     return grammar;
@@ -207,6 +209,7 @@ EspResult espDestroyGrammar(EspContext* context, EspGrammar id) {
             if (seed.grammar == id.id) gone.push_back(seedId);
         });
         for (uint32_t seedId : gone) removeSeed(*context, seedId);
+        std::erase_if(context->looks, [&](const GrammarLook& look) { return look.grammar == id.id; });
         context->grammars.erase(id.id);
         context->nodes.rules.change();
         return ESP_OK;

@@ -182,6 +182,7 @@ EspResult espHouseInfo(const EspContext* context, uint32_t index, EspHouseInfo* 
         info.ridgeHeight = house->ridgeHeight;
         info.edgeCount = uint32_t(house->edges.size());
         info.ringCount = uint32_t(house->rings.size());
+        info.hidden = context->town->tables.houses[index].hidden ? 1 : 0;
         glm::vec2 low(1e30f), high(-1e30f);
         for (const auto& ring : house->rings)
             for (glm::vec2 p : ring) {
@@ -252,6 +253,18 @@ EspResult espResetHouse(EspContext* context, uint32_t index) {
     return guarded(context, [&] {
         if (!houseOf(context, index)) return fail(context, ESP_INVALID_ARGUMENT, "espResetHouse: no such house");
         return resetHouse(*context, index);
+    });
+}
+
+EspResult espHideHouse(EspContext* context, uint32_t index, int hidden) {
+    return guarded(context, [&] {
+        if (!houseOf(context, index)) return fail(context, ESP_INVALID_ARGUMENT, "espHideHouse: no such house");
+        RoofTables::House& house = context->town->tables.houses[index];
+        if (house.hidden == (hidden != 0)) return ESP_OK;
+        context->town->changed.push_back(index);
+        house.hidden = hidden != 0;
+        context->nodes.town.change();
+        return ESP_OK;
     });
 }
 

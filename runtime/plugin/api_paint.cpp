@@ -25,14 +25,6 @@ const BlockBounds& boundsOf(PlacedSurface& surface) {
     return surface.blocks;
 }
 
-EspResult makePainter(EspContext& context) {
-    if (context.painter) return ESP_OK;
-    Result<std::unique_ptr<Painter>> painter = Painter::create(*context.device);
-    if (!painter) return failGpu(&context, painter.failure());
-    context.painter = std::move(*painter);
-    return ESP_OK;
-}
-
 // Where a dab lies in object space, and as far as it may reach there: the kernel, which measures in the world, rounds
 // otherwise.
 struct Reached {
@@ -144,6 +136,16 @@ EspResult paintSurfaces(EspContext& context, PaintStroke& stroke, std::span<cons
     return painted ? ESP_OK : failGpu(&context, painted.failure());
 }
 
+// Blocks that a dab reaches are gone through for all that come with it. notes: the stroke notes what is painted.
+EspResult paintInTurns(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs, bool notes) {
+    for (size_t first = 0; first < dabs.size(); first += kDabsAtOnce) {
+        const std::span some = dabs.subspan(first, std::min<size_t>(kDabsAtOnce, dabs.size() - first));
+        if (EspResult bad = paintSurfaces(context, stroke, some, stroke.roofsOnly)) return bad;
+        if (notes) stroke.dabs.insert(stroke.dabs.end(), some.begin(), some.end());
+    }
+    return ESP_OK;
+}
+
 EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const EspDab> dabs) {
     std::vector<DabRecord> records;
     for (const EspDab& dab : dabs) {
@@ -155,13 +157,15 @@ EspResult applyDabs(EspContext& context, PaintStroke& stroke, std::span<const Es
         records.push_back({at, dab.pressure, vec(dab.normal), 0});
     }
     // What is for roofs alone makes no layers on surfaces that happen to be near.
-    const bool roofsOnly = paintTown(context, stroke, records) && !plantsRead(context, stroke.layer);
-    // Blocks that a dab reaches are gone through for all that come with it.
-    for (size_t first = 0; first < records.size(); first += kDabsAtOnce) {
-        const size_t count = std::min<size_t>(kDabsAtOnce, records.size() - first);
-        if (EspResult bad = paintSurfaces(context, stroke, std::span(records).subspan(first, count), roofsOnly))
-            return bad;
+    stroke.roofsOnly = townTakes(context, stroke.layer) && !plantsRead(context, stroke.layer);
+    const size_t before = stroke.dabs.size();
+    if (const size_t needed = before + records.size(); needed > stroke.dabs.capacity())
+        stroke.dabs.reserve(std::max(needed, 2 * before));
+    if (EspResult bad = paintInTurns(context, stroke, records, true)) {
+        if (bad == ESP_DEVICE_LOST) stroke.dabs.resize(before);  // another device won't have them
+        return bad;
     }
+    paintTown(context, stroke, records);
     return ESP_OK;
 }
 
@@ -205,6 +209,18 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
 }
 
 }  // namespace
+
+EspResult makePainter(EspContext& context) {
+    if (context.painter) return ESP_OK;
+    Result<std::unique_ptr<Painter>> painter = Painter::create(*context.device);
+    if (!painter) return failGpu(&context, painter.failure());
+    context.painter = std::move(*painter);
+    return ESP_OK;
+}
+
+EspResult paintAgain(EspContext& context, PaintStroke& stroke) {
+    return paintInTurns(context, stroke, stroke.dabs, false);
+}
 
 EspResult replaceLayer(EspContext& context, uint32_t surface, const std::string& name, std::span<const float> texels,
                        EspStroke* out) {

@@ -144,8 +144,8 @@ EspResult espRecord(EspContext* context, void* commandBuffer) {
         if (!commandBuffer) return fail(context, ESP_INVALID_ARGUMENT, "espRecord: null pointer");
         if (!context->renderer->prepared())
             return fail(context, ESP_INVALID_ARGUMENT, "espRecord: nothing has been prepared");
-        Commands inside =
-            Commands::into(*context->device, reinterpret_cast<VkCommandBuffer>(commandBuffer), context->preparedFrame);
+        Commands inside = Commands::into(*context->device, reinterpret_cast<VkCommandBuffer>(commandBuffer),
+                                         context->preparedFrame, true);
         context->renderer->record(inside);
         return ESP_OK;
     });

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "runtime/grammar/vocabulary.hpp"
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/errors.hpp"
 #include "runtime/plugin/given.hpp"
@@ -108,6 +109,25 @@ EspResult espGrammarKind(const EspContext* context, EspGrammar grammar, EspGramm
         if (!found || !out) return fail(context, ESP_INVALID_ARGUMENT, "espGrammarKind: no such grammar, or null");
         static_assert(uint32_t(GrammarKind::patterns) == ESP_GRAMMAR_PATTERNS);
         *out = EspGrammarKind(found->map.kind());
+        return ESP_OK;
+    });
+}
+
+uint32_t espWordCount(EspGrammarKind kind) {
+    return isAmong(kind, ESP_GRAMMAR_PLANTS, ESP_GRAMMAR_PATTERNS)
+               ? uint32_t(grammar::wordsOf(GrammarKind(kind)).size())
+               : 0;
+}
+
+EspResult espWord(EspGrammarKind kind, uint32_t index, EspWord* out) {
+    return guardedAlone([&] {
+        if (index >= espWordCount(kind))
+            return failAlone(ESP_INVALID_ARGUMENT, "espWord: no such kind of grammars, or beyond its last word");
+        const grammar::WordInfo& word = grammar::wordsOf(GrammarKind(kind))[index];
+        EspWord given{};
+        given.name = word.name.data();
+        given.usage = word.usage.empty() ? "" : word.usage.data();
+        give("espWord", out, given);
         return ESP_OK;
     });
 }

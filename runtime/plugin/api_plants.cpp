@@ -38,7 +38,7 @@ EspResult pickPlant(EspContext& context, glm::vec3 origin, glm::vec3 direction, 
     if (const EspResult failed = readPlants(context, plants)) return failed;
     direction = unitOf(direction);
     // What a surface hides isn't picked; a stem lies on its surface, so a little behind it is not behind.
-    const auto wall = pickSurfaces(context, origin, direction);
+    const auto wall = pickSurfaces(context, origin, direction, true);
     const float slack = .05f;
     const auto hit =
         plants->pick(origin, direction, wall ? wall->distance + slack : std::numeric_limits<float>::infinity());
@@ -99,7 +99,7 @@ EspResult plantInfo(EspContext& context, uint32_t id, const PlantedSeed& seed, E
     const auto grown = std::ranges::find(context.grownSeeds, id);
     if (grown != context.grownSeeds.end())
         extent = plants->extentOf(uint32_t(grown - context.grownSeeds.begin()));
-    else if (seed.onBare || buriedByOthers(context, seed))
+    else if (seed.onBare || isAway(context, seed) || buriedByOthers(context, seed))
         extent.end = BranchEnd::noGround;
     if (extent.nodes == 0) extent.low = extent.high = seed.position;
     EspPlantInfo info{};

@@ -4,6 +4,7 @@
 
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/furnishing.hpp"
 #include "runtime/plugin/given.hpp"
 
 namespace espalier {
@@ -28,25 +29,39 @@ EspResult findPlaces(const EspContext& context, const TerminalData& models, cons
     return ESP_OK;
 }
 
-EspResult setProps(EspContext& context, const char* path, const EspPropPlace* places, uint32_t count) {
-    if (!path || count == 0) {
-        Status cleared = context.renderer->removeProps();
-        return cleared ? ESP_OK : failGpu(&context, cleared.failure());
-    }
+EspResult readModels(EspContext& context, const std::string& path, TerminalData& models) {
     std::vector<std::byte> file;
     if (EspResult unread = readWhole(&context, path, file)) return unread;
     // The first kind is none: it would be bark.
-    Result<TerminalData> models = parseTerminals(file, path, {"none"});
-    if (!models) return fail(&context, ESP_INVALID_CONTENT, models.failure().text());
+    Result<TerminalData> read = parseTerminals(file, path, {"none"});
+    if (!read) return fail(&context, ESP_INVALID_CONTENT, read.failure().text());
+    models = std::move(*read);
     // As the GPU sorts them.
-    std::stable_sort(models->variants.begin(), models->variants.end(),
+    std::stable_sort(models.variants.begin(), models.variants.end(),
                      [](const TerminalVariant& a, const TerminalVariant& b) { return a.kind < b.kind; });
-    std::vector<PropPlace> found;
-    if (EspResult bad = findPlaces(context, *models, places, count, found)) return bad;
-    Status set = context.renderer->setProps(std::move(*models), std::move(found));
+    return ESP_OK;
+}
+
+EspResult draw(EspContext& context, const Furnishing& props, TerminalData models) {
+    Status set = context.renderer->setProps(std::move(models), props.places);
     if (set) return ESP_OK;
     if (set.failure().ofDevice()) return failGpu(&context, set.failure());
-    return fail(&context, ESP_INVALID_CONTENT, std::string(path) + ": " + set.failure().text());
+    return fail(&context, ESP_INVALID_CONTENT, props.models + ": " + set.failure().text());
+}
+
+EspResult setProps(EspContext& context, const char* path, const EspPropPlace* places, uint32_t count) {
+    Furnishing props;
+    if (path && count > 0) {
+        TerminalData models;
+        props.models = path;
+        if (EspResult bad = readModels(context, path, models)) return bad;
+        if (EspResult bad = findPlaces(context, models, places, count, props.places)) return bad;
+        if (EspResult bad = draw(context, props, std::move(models))) return bad;
+    } else if (Status cleared = context.renderer->removeProps(); !cleared) {
+        return failGpu(&context, cleared.failure());
+    }
+    context.props = std::move(props);
+    return ESP_OK;
 }
 
 EspResult setSite(EspContext& context, const EspSiteDef& def) {
@@ -65,10 +80,24 @@ EspResult setSite(EspContext& context, const EspSiteDef& def) {
         map.rgba.assign(def.rgba, def.rgba + size_t(def.width) * def.height * 4);
     }
     Status set = context.renderer->setSite(map);
-    return set ? ESP_OK : failGpu(&context, set.failure());
+    if (!set) return failGpu(&context, set.failure());
+    context.site = std::move(map);
+    return ESP_OK;
 }
 
 }  // namespace
+
+EspResult furnishAgain(EspContext& context) {
+    if (Status set = context.renderer->setSite(context.site); !set) return failGpu(&context, set.failure());
+    if (context.props.places.empty()) return ESP_OK;
+    TerminalData models;
+    if (EspResult bad = readModels(context, context.props.models, models)) return bad;
+    const auto missing = [&](const PropPlace& place) { return place.variant >= models.variants.size(); };
+    if (std::ranges::any_of(context.props.places, missing))
+        return fail(&context, ESP_INVALID_CONTENT, context.props.models + ": has fewer models than before");
+    return draw(context, context.props, std::move(models));
+}
+
 }  // namespace espalier
 
 using namespace espalier;

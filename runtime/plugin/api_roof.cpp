@@ -66,7 +66,7 @@ void place(Footprint& f, const EspTownDef& def) {
 // Ground lies a little below the walls' feet, so that a floor that a model brings along lies on it.
 GroundLook groundUnder(const RoofStructure& structure, const EspTownDef& def) {
     GroundLook ground;
-    ground.drawn = def.ground != 0;
+    ground.kind = def.ground != 0 ? GroundKind::meadow : GroundKind::none;
     ground.height = structure.houses.front().baseHeight;
     for (const RoofHouse& house : structure.houses) ground.height = std::min(ground.height, house.baseHeight);
     ground.height -= 0.02f;
@@ -130,7 +130,8 @@ EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
     bindTownLayers(context, inputs);
     std::vector<ContextInfo> contexts = grammar.map.contexts();
     Status grown = Done{};
-    if (town.growsWhole(grammar))
+    const bool whole = town.growsWhole(grammar);
+    if (whole)
         grown = context.roofs->grow(inputs);
     else if (!town.changed.empty())
         grown = context.roofs->growHouses(inputs, town.changed);
@@ -142,7 +143,7 @@ EspResult growTown(EspContext& context, const LoadedGrammar& grammar) {
     const RoofView view = context.roofs->view();
     if (view.revision != town.view.revision) context.dropTriangles();
     context.nodes.roofs.made();
-    town.stands(context.nodes.roofs.version());
+    town.stands(context.nodes.roofs.version(), whole);
     town.view = view;
     town.contexts = std::move(contexts);
     return ESP_OK;

@@ -47,8 +47,13 @@ EspResult setLayer(EspContext& context, const EspLayerDef& def) {
     };
     if (def.texels) {
         const PlacedSurface& surface = *context.surfaces.find(def.surface.id);
-        PaintedLayer layer{def.name, def.surface.id, surface.data.levels.front().size, {}, context.layersMade + 1, 0};
-        Result<Buffer> texels = makeBuffer(*context.device, "layer", laidOut(context, surface.data, def));
+        PaintedLayer layer;
+        layer.name = def.name;
+        layer.surface = def.surface.id;
+        layer.size = surface.data.levels.front().size;
+        layer.kept = laidOut(context, surface.data, def);
+        layer.number = context.layersMade + 1;
+        Result<Buffer> texels = makeBuffer(*context.device, "layer", layer.kept);
         if (!texels) return failGpu(&context, texels.failure());
         layer.texels = std::move(*texels);
         tell();

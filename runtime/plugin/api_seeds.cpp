@@ -177,6 +177,11 @@ void TwinTable::release(uint32_t number, uint32_t twin) {
     if (uses.taken.empty()) numbers_.erase(number);
 }
 
+bool isAway(const EspContext& context, const PlantedSeed& seed) {
+    const auto away = [&](uint32_t instance) { return context.surfaces.idAt(instance) == 0; };
+    return !context.surfaces.find(seed.surface) || (seed.frozen && std::ranges::any_of(seed.frozenOn, away));
+}
+
 void removeSeed(EspContext& context, uint32_t id) {
     const PlantedSeed* seed = context.seeds.find(id);
     context.twins.release(seed->number, seed->twin);
@@ -211,11 +216,12 @@ EspResult espRemoveSeed(EspContext* context, EspSeed seed) {
 
 EspResult espRemoveAllSeeds(EspContext* context) {
     return guarded(context, [&] {
-        if (context->seeds.size() == 0) return ESP_OK;
         std::vector<uint32_t> all;
-        context->seeds.forEach([&](uint32_t id, const PlantedSeed&) { all.push_back(id); });
-        for (uint32_t id : all) context->seeds.erase(id);
-        context->twins = {};
+        context->seeds.forEach([&](uint32_t id, const PlantedSeed& seed) {
+            if (!seed.ofGraph) all.push_back(id);
+        });
+        if (all.empty()) return ESP_OK;
+        for (uint32_t id : all) removeSeed(*context, id);
         context->nodes.seeds.change();
         return ESP_OK;
     });
@@ -244,7 +250,20 @@ EspResult espSeedInfo(const EspContext* context, EspSeed id, EspSeedInfo* out) {
         put(info.normal, seed->normal);
         put(info.direction, seed->direction);
         info.frozen = seed->frozen ? 1 : 0;
+        info.ofGraph = seed->ofGraph ? 1 : 0;
+        info.hidden = seed->hidden ? 1 : 0;
         give("espSeedInfo", out, info);
+        return ESP_OK;
+    });
+}
+
+EspResult espHideSeed(EspContext* context, EspSeed id, int hidden) {
+    return guarded(context, [&] {
+        PlantedSeed* seed = find(context, id);
+        if (!seed) return fail(context, ESP_INVALID_ARGUMENT, "espHideSeed: no such seed");
+        if (seed->hidden == (hidden != 0)) return ESP_OK;
+        seed->hidden = hidden != 0;
+        context->nodes.seeds.change();
         return ESP_OK;
     });
 }

@@ -6,6 +6,7 @@
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/errors.hpp"
 #include "runtime/plugin/given.hpp"
+#include "runtime/plugin/kept_paint.hpp"
 #include "runtime/plugin/seeds.hpp"
 #include "runtime/plugin/surface_contacts.hpp"
 #include "runtime/plugin/surface_point.hpp"
@@ -19,7 +20,7 @@ void noteSurfaces(EspContext& context) {
     if (context.nodes.carriers.due()) {
         std::vector<bool> carriers(context.surfaceSlots());
         context.seeds.forEach([&](uint32_t, const PlantedSeed& seed) {
-            if (beginsPattern(context, seed)) return;
+            if (beginsPattern(context, seed) || isAway(context, seed)) return;
             carriers[instanceOf(seed.surface)] = true;
             if (seed.frozen)
                 for (uint32_t instance : seed.frozenOn) carriers[instance] = true;
@@ -83,6 +84,7 @@ Planting plantingOf(const EspContext& context, const Maps& maps) {
         if (beginsPattern(context, planted)) return;
         Seed seed{};
         seed.key = seedKey(planted);
+        if (isAway(context, planted) || planted.hidden) return;
         if (planted.frozen) {
             out.frozen.push_back({seed.key, planted.frozen});
             frozenIds.push_back(id);
@@ -216,13 +218,21 @@ EspResult espUpdate(EspContext* context) {
     return guarded(context, [&] {
         context->device->hostSubmitted();  // as espalier.h asks for; a host that draws no more tells no more of frames
         context->renderer->unprepare();
-        const EspResult town = updateTown(*context);
-        const std::string why = context->error;
-        const EspResult plants = updatePlants(*context);
-        const EspResult patterns = plants == ESP_OK ? updatePatterns(*context) : plants;
-        if (town == ESP_OK) return patterns;
+        if (context->streaming) context->streaming->advance();
+        if (context->loads) context->loads->advance();
+        EspResult first = ESP_OK;
+        std::string why;
+        const auto note = [&](EspResult result) {
+            if (first == ESP_OK && result != ESP_OK) why = context->error;
+            if (first == ESP_OK) first = result;
+            return result == ESP_OK;
+        };
+        if (Status kept = keepBehind(*context); !kept) note(failGpu(context, kept.failure()));
+        note(updateGraphs(*context));  // they ask for surfaces and plants
+        note(updateTown(*context));
+        if (note(updatePlants(*context))) note(updatePatterns(*context));
         context->error = why;
-        return town;
+        return first;
     });
 }
 

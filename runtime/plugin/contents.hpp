@@ -12,12 +12,15 @@
 #include <vector>
 
 #include "plugin_api/espalier.h"
+#include "runtime/emit/terminals.hpp"
 #include "runtime/gpu/buffer.hpp"
 #include "runtime/grammar/grammar.hpp"
 #include "runtime/graph/node.hpp"
 #include "runtime/paint/painter.hpp"
 #include "runtime/plugin/plants.hpp"
+#include "runtime/plugin/shifted.hpp"
 #include "runtime/render/ground.hpp"
+#include "runtime/render/props.hpp"
 #include "runtime/roof/footprint.hpp"
 #include "runtime/roof_growth/plan_layers.hpp"
 #include "runtime/roof_growth/roof_growth.hpp"
@@ -28,14 +31,26 @@
 
 namespace espalier {
 
+// What a surface is read from.
+struct SurfaceRequest {
+    std::string name;  // for messages, and of the file
+    EspTransform place;
+    bool groundOnly = false;
+    std::shared_ptr<const std::vector<std::byte>> bytes;  // a host's, in memory; null: they are in the file
+    glm::dvec3 stand{0};                                  // as PlacedSurface's
+};
+
 // A placed surface: on the GPU, and what picking, planting and laying layers need on the CPU. Its place in the id
 // table is its instance number, which nodes and seeds carry.
 struct PlacedSurface {
     uint32_t instance = 0;
+    SurfaceRequest from;  // what it is read from, and where it stood when it was read last
     EspTransform place;
-    Version placed = 0;  // of where it stands
+    glm::dvec3 stand{0};  // where its own origin lies, seen from the world's first one; see EspContext::origin
+    Version placed = 0;   // of where it stands
     glm::mat4 toWorld{1}, toObject{1};
     float scale = 1;
+    bool hidden = false;
     SurfaceData data;  // without images and all levels but the first, once it is on the GPU
     EspSurfaceInfo info;
     GpuSurface gpu;
@@ -66,8 +81,10 @@ struct PaintedLayer {
     uint32_t surface = 0;  // id
     uint32_t size = 0;     // texels a side
     Buffer texels;
-    uint64_t number = 0;  // unlike any other layer's of the context, those before it included
-    int strokes = 0;      // that have changed it since it came and aren't undone
+    std::vector<float> kept;  // the host's copy, as of the last stroke that has ended
+    uint64_t number = 0;      // unlike any other layer's of the context, those before it included
+    int strokes = 0;          // that have changed it since it came and aren't undone
+    bool behind = false;      // memory was short: `kept` lacks what was painted last
 };
 
 struct LoadedGrammar {
@@ -96,9 +113,12 @@ struct PlantedSeed {
     uint32_t number = 0;
     uint32_t twin = 1;  // tells apart seeds of one number
     Walk walk{};
+    bool ofGraph = false;                            // a procedural graph planted it, and takes it away
+    bool hidden = false;                             // nothing grows from it until it is shown
     bool onBare = false;                             // no ground is near: it waits
     glm::vec3 position{0}, normal{0}, direction{0};  // world
     glm::vec3 givenPosition{0}, givenDirection{0};   // as the host asked
+    Remainder remainder, givenRemainder;             // of the two positions
     std::vector<SeedParam> params;                   // by name
     std::shared_ptr<const PlantRecords> frozen;      // its plant, if it is to stay as it is
     std::vector<uint32_t> frozenOn;                  // instances of surfaces that this stands on
@@ -114,6 +134,18 @@ struct GrammarVariant {
     RuleMap map;
     Buffer words;
     bool used = false;
+};
+
+// How terminals of a grammar look; the renderer has a kind of its own for each.
+struct GrammarLook {
+    uint32_t grammar = 0;  // id
+    TerminalLook look;
+};
+
+// Props as a host has placed them.
+struct Furnishing {
+    std::string models;  // file
+    std::vector<PropPlace> places;
 };
 
 // Which twins of which numbers are planted.
@@ -140,6 +172,8 @@ struct PaintStroke {
     bool smooths = false, erases = false;
     float radius = 0;  // metres
     bool open = true;
+    std::vector<DabRecord> dabs;  // that surfaces have taken and the host has no copy of: since it began
+    bool roofsOnly = false;       // these make no layers on surfaces
     // What it has to do with one layer.
     struct Hold {
         uint64_t layer = 0;  // number of the layer
@@ -222,6 +256,7 @@ struct LoadedTown {
     Version number = 0;  // unlike any other town's
     PlanLayers layers;
     std::vector<std::pair<std::string, PlanRect>> painted;  // layers that changed since the roofs last grew
+    std::map<std::string, std::vector<float>> grownOver;    // texels of layers as they were then
     std::vector<float> means;                               // [house * kRoofLayers + layer of the grammar]
     RoofView view;                                          // of what stands
     std::vector<ContextInfo> contexts;                      // that it was grown by
@@ -229,12 +264,8 @@ struct LoadedTown {
 
     // Whether more than `changed` and `painted` tell has changed since the roofs grew, by this grammar.
     bool growsWhole(const LoadedGrammar& by) const { return std::max(whole, by.version) > grown; }
-    // The roofs stand as of a version.
-    void stands(Version version) {
-        grown = version;
-        changed.clear();
-        painted.clear();
-    }
+    // The roofs stand as of a version. wholly: all of them have grown.
+    void stands(Version version, bool wholly);
 };
 
 // A layer as kernels know it: its number is the place in this list. Two grammars that name the same layer, but

@@ -11,16 +11,20 @@
 #include <vector>
 
 #include "plugin_api/espalier.h"
+#include "runtime/core/let_go.hpp"
 #include "runtime/core/result.hpp"
 #include "runtime/expand/growth.hpp"
 #include "runtime/gpu/device.hpp"
 #include "runtime/graph/node.hpp"
 #include "runtime/plugin/contents.hpp"
 #include "runtime/plugin/files.hpp"
+#include "runtime/plugin/graphs.hpp"
 #include "runtime/plugin/id_table.hpp"
 #include "runtime/plugin/parts.hpp"
 #include "runtime/plugin/patterns.hpp"
+#include "runtime/plugin/streaming.hpp"
 #include "runtime/plugin/surface_changes.hpp"
+#include "runtime/plugin/surface_loads.hpp"
 #include "runtime/render/renderer.hpp"
 
 namespace espalier {
@@ -37,12 +41,13 @@ struct ContextNodes {
     graph::Node seeds;      // with what is pruned and what stands frozen
     graph::Node limits;     // EspContext::grow
     graph::Node fields;     // that patterns are laid along
+    graph::Node origin;     // of the world
     graph::Node town;       // its houses, what is painted over it, which grammar it grows by
     graph::Node roofRules;  // with their parameters
 
-    graph::Node contacts{&surfaces};          // between surfaces
-    graph::Node carriers{&contacts, &seeds};  // surfaces that plants stand on or may get to
-    graph::Node tables{&contacts, &layers};   // by which kernels read surfaces and layers
+    graph::Node contacts{&surfaces};                  // between surfaces
+    graph::Node carriers{&contacts, &seeds};          // surfaces that plants stand on or may get to
+    graph::Node tables{&contacts, &layers, &origin};  // by which kernels read surfaces and layers
     graph::Node plants{&contacts, &paint, &rules, &seeds, &limits};
     graph::Node patterns{&tables, &paint, &rules, &seeds, &limits, &fields};
     graph::Node roofs{&town, &roofRules};
@@ -56,6 +61,9 @@ struct EspContext {
     std::string cacheFolder;
     espalier::Files files;
     mutable std::string error;
+    std::filesystem::path terminals;  // file
+    bool validation = false, checksDevice = true;
+    bool bare = false;  // what lies on the device went with one that was lost: api_recreate.cpp
 
     // Destroyed from the last to the first: the device goes last, its objects before it.
     std::unique_ptr<espalier::Device> device;
@@ -70,18 +78,26 @@ struct EspContext {
     std::optional<espalier::LoadedTown> town;
     espalier::ContextPatterns patterns;
     espalier::ContextNumber number;
+    espalier::ContextGraphs graphs{number.value()};
     espalier::SurfaceTable surfaces{number.value()};
     espalier::IdTable<espalier::LoadedGrammar, 10> grammars{number.value()};
     espalier::IdTable<espalier::PlantedSeed, 20> seeds{number.value()};
     std::vector<espalier::PaintedLayer> layers;
-    uint64_t layersMade = 0;  // ever
+    uint64_t layersMade = 0;   // ever
+    bool paintBehind = false;  // some copies of paint are to be made yet: kept_paint.hpp
     espalier::IdTable<espalier::PaintStroke, 20> strokes{number.value()};
     std::map<std::string, std::optional<float>, std::less<>> filled;  // with what, as a whole: erasing leads there
     std::unique_ptr<espalier::Painter> painter;                       // made with the first stroke
     std::vector<espalier::SceneLayer> sceneLayers;
     espalier::TwinTable twins;
     std::vector<espalier::GrammarVariant> variants;
+    std::vector<espalier::GrammarLook> looks;
+    std::optional<espalier::TerminalData> shippedTerminals;  // kept from the first look on
+    espalier::Furnishing props;
+    espalier::SiteMap site;
     std::vector<uint64_t> pruned;  // keys of branches, ascending
+
+    glm::dvec3 origin{0};  // of the world, seen from the first one
 
     EspGrowDef grow;
     std::unique_ptr<espalier::GrowthWatch> watch;  // null: nobody does
@@ -113,9 +129,12 @@ struct EspContext {
 
     bool hasPicture = false;
     uint32_t pictureWidth = 0, pictureHeight = 0;
-    uint64_t preparedFrame = 0;                // the host's, of the last espPrepare
-    std::vector<std::byte> vertices, indices;  // of the last espMaterialise, until something grows
-    espalier::StandingParts parts;             // of the last espReadParts
+    uint64_t preparedFrame = 0;                      // the host's, of the last espPrepare
+    std::vector<std::byte> vertices, indices;        // of the last espMaterialise, until something grows
+    espalier::StandingParts parts;                   // of the last espReadParts
+    std::unique_ptr<espalier::Streaming> streaming;  // made with the first streamed surface
+    // Last, so that its thread ends first. Made with the first load.
+    std::unique_ptr<espalier::SurfaceLoads> loads;
 
     // An input of plants changed in a way that only a full growth answers.
     void changeWholly(espalier::graph::Node& input) noexcept {
@@ -127,7 +146,9 @@ struct EspContext {
         grammar.version = (grammar.map.roofs() ? nodes.roofRules : nodes.rules).change();
     }
     // The arrays of espMaterialise.
-    void dropTriangles() { vertices = {}, indices = {}; }
+    void dropTriangles() { espalier::letGo(vertices, indices); }
+    // Standing, or streamed and away.
+    bool knowsSurface(uint32_t id) const { return surfaces.find(id) || (streaming && streaming->knows(id)); }
     // The index by which growth and GrowthChanges know a grammar.
     uint32_t grammarIndex(uint32_t id) const;
     uint32_t surfaceSlots() const;

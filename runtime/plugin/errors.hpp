@@ -19,7 +19,7 @@ constexpr const char* kNoMemory = "out of memory";  // short enough to take none
 // Likewise a file's mistakes, as INVALID_CONTENT.
 EspResult failContent(const EspContext* context, const Failure& failure);
 // For failures of GPU work: NO_DEVICE, DEVICE_LOST, OUT_OF_MEMORY or DRIVER_FAILED.
-EspResult gpuCode(const EspContext& context, const Failure& failure);
+EspResult gpuCode(const Device& device, const Failure& failure);
 EspResult failGpu(const EspContext* context, const Failure& failure);
 // For work that may also refuse what it is given, as INVALID_CONTENT.
 EspResult failWork(const EspContext* context, const Failure& failure);
@@ -46,12 +46,14 @@ inline EspResult failAlone(EspResult code, std::string_view message) noexcept {
     }
     return code;
 }
-// Runs a function of the ABI. No exception leaves it.
+// Runs a function of the ABI. No exception leaves it. bare: also while the context lacks what lies on its device.
 template <class F>
-EspResult guarded(const EspContext* context, F&& body) noexcept {
+EspResult guarded(const EspContext* context, F&& body, bool bare = false) noexcept {
     try {
         if (!context) return failAlone(ESP_INVALID_ARGUMENT, "there is no context: it is null");
         context->error.clear();
+        if (context->bare && !bare)
+            return fail(context, ESP_DEVICE_LOST, "the GPU was lost, and espRecreate has not succeeded since");
         return body();
     } catch (const Refusal& refusal) {
         return fail(context, ESP_INVALID_ARGUMENT, refusal.why);

@@ -99,7 +99,7 @@ Result<MadeField*> fieldOn(EspContext& context, uint32_t id, const FieldInfo& in
 
 void forgetGoneFields(EspContext& context) {
     std::erase_if(context.patterns.ground, [&](const auto& g) { return !context.surfaces.find(g.first); });
-    std::erase_if(context.patterns.asked, [&](const auto& a) { return !context.surfaces.find(a.first.first); });
+    std::erase_if(context.patterns.asked, [&](const auto& a) { return !context.knowsSurface(a.first.first); });
 }
 
 Result<LayerBuf> fieldLayers(EspContext& context, const FieldInfo& info) {

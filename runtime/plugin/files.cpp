@@ -43,10 +43,14 @@ Result<std::vector<std::byte>> Files::read(const std::string& path) const {
     return readFile(path);
 }
 
+Result<std::filesystem::path> Files::beside(const std::string& document, const std::string& name) const {
+    return host_ ? nameBeside(document, name) : placeBeside(document, name);
+}
+
 IncludeReader Files::includesOf(const std::string& file) const {
     if (!host_) return includesBeside(file);
     return [file, files = *this](const std::string& name) -> Result<std::string> {
-        const Result<std::filesystem::path> place = nameBeside(file, name);
+        const Result<std::filesystem::path> place = files.beside(file, name);
         if (!place) return place.failure();
         const Result<std::vector<std::byte>> bytes = files.read(place.value().string());
         if (!bytes) return bytes.failure();

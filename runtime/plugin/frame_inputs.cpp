@@ -109,6 +109,8 @@ EspResult checkFrame(const EspContext* context, const std::string& call, uint64_
 EspResult checkLook(const EspContext* context, const std::string& call, const EspLook& look) {
     if (!isAmong(look.view, ESP_VIEW_SHADED, ESP_VIEW_FIELD))
         return fail(context, ESP_INVALID_ARGUMENT, call + ": no such view");
+    if (look.ground < ESP_GROUND_NONE || look.ground > ESP_GROUND_STUDIO)
+        return fail(context, ESP_INVALID_ARGUMENT, call + ": no such ground");
     if (!finiteLook(look)) return fail(context, ESP_INVALID_ARGUMENT, call + ": a number of the look is not finite");
     return ESP_OK;
 }
@@ -119,18 +121,21 @@ EspResult findInputs(EspContext& context, const std::string& call, const EspLook
     Status tables = context.refreshTables();
     if (!tables) return failGpu(&context, tables.failure());
     inputs.growth = context.growth->view();
+    inputs.origin = context.origin;
     if (context.town) {
         inputs.roofs = &context.town->view;
         inputs.ground = context.town->ground;
         const bool shows = look.view == ESP_VIEW_LAYER && look.viewLayer;
         context.town->view.shownLayer = shownTownLayer(context, shows ? look.viewLayer : "");
     }
+    static_assert(uint32_t(GroundKind::meadow) == ESP_GROUND_MEADOW &&
+                  uint32_t(GroundKind::studio) == ESP_GROUND_STUDIO);
     if (look.ground) {
-        inputs.ground.drawn = true;
+        inputs.ground.kind = GroundKind(look.ground);
         inputs.ground.height = look.groundLevel;
         inputs.ground.overgrows = look.groundOvergrows != 0;
     }
-    if (hosted) inputs.ground.drawn = false;  // the ground of a host's scene is the host's
+    if (hosted) inputs.ground.kind = GroundKind::none;  // the ground of a host's scene is the host's
     inputs.surfaces = addressOf<SurfaceBuf>(context.surfaceTable);
     inputs.carriers = context.carriersPlaced();
     inputs.placed = inputs.carriers;

@@ -32,6 +32,13 @@ class IdTable {
 
     // 0 if there is no place left.
     uint32_t insert(T value) {
+        const uint32_t id = reserve();
+        if (id) put(id, std::move(value));
+        return id;
+    }
+
+    // An id whose object comes later: until put() nothing is found under it. 0 if there is no place left.
+    uint32_t reserve() {
         uint32_t place;
         if (!free_.empty()) {
             place = free_.back();
@@ -43,9 +50,26 @@ class IdTable {
             if (free_.capacity() <= slots_.size()) free_.reserve(2 * slots_.size() + 1);
             slots_.emplace_back();
         }
-        slots_[place].value.emplace(std::move(value));
+        return context_ | (slots_[place].generation << kPlaceBits) | place;
+    }
+    void put(uint32_t id, T value) {
+        slots_[placeOf(id)].value.emplace(std::move(value));
         ++count_;
-        return idAt(place);
+    }
+    // The object goes, its id stays reserved.
+    T take(uint32_t id) {
+        Slot& slot = *slotOf(id);
+        T value = std::move(*slot.value);
+        slot.value.reset();
+        --count_;
+        return value;
+    }
+    // Gives up an id that is reserved.
+    void release(uint32_t id) {
+        Slot& slot = slots_[placeOf(id)];
+        if (slot.generation == kLastGeneration) return;
+        ++slot.generation;
+        free_.push_back(placeOf(id));
     }
 
     T* find(uint32_t id) {
@@ -59,10 +83,7 @@ class IdTable {
         if (!slot) return false;
         slot->value.reset();
         --count_;
-        if (slot->generation < kLastGeneration) {
-            ++slot->generation;
-            free_.push_back(placeOf(id));
-        }
+        release(id);
         return true;
     }
 

@@ -17,6 +17,8 @@ BrushLimits limitsOf(const EspBrush& brush);
 // The numbers by which a kernel applies the brush; `fill` is the layer's.
 BrushRecord recordOf(const EspBrush& brush, float fill);
 
+EspResult makePainter(EspContext& context);  // if there is none
+
 // The number of the layer that a grammar's context reads; made if need be, from one that no grammar but `without` reads
 // any more and that isn't among `kept` where there are kMaxLayers already. Nothing: all of those are read.
 std::optional<uint32_t> sceneLayer(EspContext& context, const std::string& name, float fill,

@@ -151,7 +151,8 @@ class PlantGatherer {
         const float strong = std::max({c.x, c.y, c.z}) - std::min({c.x, c.y, c.z});
         const float turn = .5f * std::min(1.0f, 3 * strong);
         const float share = std::clamp(.08f + .46f * pose.tint + .8f * (a - .5f), 0.0f, 1.0f);
-        const glm::vec3 grown = glm::mix(old, young, share) * (.68f + .64f * b);
+        glm::vec3 grown = glm::mix(old, young, share) * (.68f + .64f * b);
+        if (pose.mesh >= kOwnMeshes) grown = glm::vec3(std::clamp(1.7f * glm::dot(grown, weights), .55f, 1.25f));
         const glm::vec3 turned =
             c / std::max(glm::dot(c, weights), 1e-3f) * glm::dot(mean, weights) / glm::max(mean, glm::vec3(1e-3f));
         return grown * glm::mix(glm::vec3(1), turned, turn);
@@ -175,7 +176,7 @@ class PlantGatherer {
     }
     uint32_t variantPart(uint32_t variant) {
         const TerminalVariant& of = terminals_.data().variants[variant];
-        const uint32_t part = out_.variant(ESP_PART_LEAF, of.name, terminals_.data(), of, of.kind == kKindLeaf);
+        const uint32_t part = out_.variant(ESP_PART_LEAF, of.name, terminals_.data(), of, hangs(of.kind));
         means_.resize(std::max<size_t>(means_.size(), part + 1), glm::vec3(1));
         means_[part] = meanColour(terminals_.data(), of);
         return part;

@@ -56,7 +56,8 @@ class Gathering {
 
     PatternPlanting run() {
         context_.seeds.forEach([&](uint32_t, const PlantedSeed& planted) {
-            if (!beginsPattern(context_, planted) || planted.onBare) return;
+            if (!beginsPattern(context_, planted) || planted.onBare || planted.hidden || isAway(context_, planted))
+                return;
             Seed seed{};
             seed.key = seedKey(planted);
             seed.walk = planted.walk;
@@ -173,6 +174,33 @@ Status takePieces(EspContext& context, const std::filesystem::path& path, std::s
 EspResult usePieces(EspContext& context, const std::filesystem::path& wanted) {
     const std::filesystem::path path = wanted.empty() ? context.patterns.shipped : wanted;
     if (path == context.patterns.file && !context.patterns.names.empty()) return ESP_OK;
+    std::vector<std::byte> file;
+    if (EspResult unread = readWhole(&context, path.string(), file)) return unread;
+    const Status taken = takePieces(context, path, file);
+    return taken ? ESP_OK : failWork(&context, taken.failure());
+}
+
+EspResult shiftPatterns(EspContext& context, const glm::dvec3& by) {
+    const PieceDraw* drawn = context.renderer->pieces();
+    if (!drawn || drawn->empty()) return ESP_OK;
+    std::vector<PatternPiece> pieces = drawn->pieces();
+    std::vector<Remainder> remainders = context.patterns.remainders;
+    remainders.resize(pieces.size());
+    for (size_t i = 0; i < pieces.size(); ++i) shift(pieces[i].position, remainders[i], by);
+    if (Status placed = context.renderer->placePieces(std::move(pieces)); !placed)
+        return failGpu(&context, placed.failure());
+    context.patterns.remainders = std::move(remainders);
+    return ESP_OK;
+}
+
+void keepPatterns(EspContext& context) {
+    if (context.patterns.grownFrom != 0) context.patterns.grownFrom = Gathering(context).run().signature;
+    context.nodes.patterns.made();
+}
+
+EspResult readPiecesAgain(EspContext& context) {
+    if (context.patterns.names.empty()) return ESP_OK;
+    const std::filesystem::path path = context.patterns.file;
     std::vector<std::byte> file;
     if (EspResult unread = readWhole(&context, path.string(), file)) return unread;
     const Status taken = takePieces(context, path, file);

@@ -23,6 +23,7 @@ namespace espalier {
 // What a host has said of one field of one surface; in the world.
 struct AskedField {
     std::vector<EspFieldElement> elements;
+    std::vector<Remainder> remainders;  // of their positions, where the origin has moved
     float drift[3] = {0, -1, 0};
     float lean = 1;
     bool exact = false;
@@ -67,6 +68,7 @@ struct ContextPatterns {
     uint64_t grownFrom = 0;  // what the pattern was derived from; 0: nothing stands
     uint32_t seeds = 0;
     PatternStats stats;
+    std::vector<Remainder> remainders;  // of positions of pieces, likewise
     FailedInputs failed;
 };
 
@@ -85,6 +87,12 @@ Status knowPieces(EspContext& context);
 // Takes the meshes of another file, or of the shipped one where `file` is empty, before any grammar knows them. On
 // failure they are what they were.
 EspResult usePieces(EspContext& context, const std::filesystem::path& file);
+// Moves what stands, together with all that it stands on: nothing is derived.
+EspResult shiftPatterns(EspContext& context, const glm::dvec3& by);
+// After all has moved together: patterns are as up to date as they were.
+void keepPatterns(EspContext& context);
+// For a renderer that is new, if there were any.
+EspResult readPiecesAgain(EspContext& context);
 // Derives patterns anew if something that they depend on has changed; on failure the last ones stand.
 EspResult updatePatterns(EspContext& context);
 // Whether a seed begins a pattern, no plant.

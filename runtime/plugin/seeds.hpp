@@ -12,6 +12,8 @@ namespace espalier {
 uint64_t seedKey(const PlantedSeed& seed);
 // Takes a seed out, and all notes of it.
 void removeSeed(EspContext& context, uint32_t id);
+// Whether a streamed surface is away that the seed, or its frozen plant, stands on. Then it waits.
+bool isAway(const EspContext& context, const PlantedSeed& seed);
 // The plants as last grown, read back if that is still to do. `out` belongs to the context.
 EspResult readPlants(EspContext& context, const Plants*& out);
 // Makes the variants that seeds ask for, and brings up to date those whose grammar has changed.

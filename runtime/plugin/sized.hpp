@@ -28,9 +28,11 @@ void setDefaults(EspFieldDef& def);
 void setDefaults(EspPassDef& def);
 void setDefaults(EspPassFormat& format);
 void setDefaults(EspLayerDef& def);
+void setDefaults(EspLoadingDef& def);
 void setDefaults(EspLook& look);
 void setDefaults(EspPartsDef& def);
 void setDefaults(EspSeedDef& def);
+void setDefaults(EspStreamingDef& def);
 void setDefaults(EspTownDef& def);
 
 // Of a struct that a host has given to the function `call`: as many bytes as its header and ours both know.

@@ -6,6 +6,7 @@
 
 #include "runtime/core/undo.hpp"
 #include "runtime/plugin/errors.hpp"
+#include "runtime/plugin/kept_paint.hpp"
 #include "runtime/plugin/painting.hpp"
 
 namespace espalier {
@@ -32,7 +33,8 @@ EspResult makeLayer(EspContext& context, uint32_t surface, const std::string& na
     commands->fill(*texels, floatBitsToUint(fill));
     Result<uint64_t> submitted = commands->submit();
     if (!submitted) return failGpu(&context, submitted.failure());
-    context.layers.push_back({name, surface, size, std::move(*texels), number, 0});
+    PaintedLayer layer{name, surface, size, std::move(*texels), std::vector<float>(size_t(size) * size, fill), number};
+    context.layers.push_back(std::move(layer));
     Undo untold([&] {
         context.layers.pop_back();
         context.changeWholly(context.nodes.paint);
@@ -42,27 +44,12 @@ EspResult makeLayer(EspContext& context, uint32_t surface, const std::string& na
     return ESP_OK;
 }
 
-Canvas canvasOf(EspContext& context, uint32_t surface, const std::string& name) {
-    const PlacedSurface& placed = *context.surfaces.find(surface);
-    Canvas canvas;
-    canvas.layer = &paintedLayer(context, surface, name)->texels;
-    canvas.surface = placed.gpu.ref(placed.toWorld);
-    canvas.instance = placed.instance;
-    return canvas;
-}
-
 PaintStroke::Part& partOf(PaintStroke& stroke, uint32_t surface) {
     for (PaintStroke::Part& part : stroke.parts)
         if (part.surface == surface) return part;
     PaintStroke::Part& part = stroke.parts.emplace_back();
     part.surface = surface;
     return part;
-}
-
-// The layer that a part has painted; null if it is gone, though there may be another of its name.
-PaintedLayer* layerOf(EspContext& context, const PaintStroke& stroke, const PaintStroke::Part& part) {
-    PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer);
-    return layer && layer->number == part.layer ? layer : nullptr;
 }
 
 // The parts of an ended stroke whose layers there are.
@@ -104,7 +91,7 @@ void takeBack(EspContext& context, PaintStroke& stroke) noexcept {
     context.changeWholly(context.nodes.paint);
     swapTown(context, stroke);
     try {
-        (void)context.painter->swap(jobsOf(context, stroke));
+        if (context.painter->swap(jobsOf(context, stroke))) swapKept(context, stroke);
     } catch (const std::bad_alloc&) {
         return;
     }
@@ -112,6 +99,20 @@ void takeBack(EspContext& context, PaintStroke& stroke) noexcept {
 }
 
 }  // namespace
+
+Canvas canvasOf(EspContext& context, uint32_t surface, const std::string& name) {
+    const PlacedSurface& placed = *context.surfaces.find(surface);
+    Canvas canvas;
+    canvas.layer = &paintedLayer(context, surface, name)->texels;
+    canvas.surface = placed.gpu.ref(placed.toWorld);
+    canvas.instance = placed.instance;
+    return canvas;
+}
+
+PaintedLayer* layerOf(EspContext& context, const PaintStroke& stroke, const PaintStroke::Part& part) {
+    PaintedLayer* layer = paintedLayer(context, part.surface, stroke.layer);
+    return layer && layer->number == part.layer ? layer : nullptr;
+}
 
 void withdraw(EspContext& context, PaintStroke& stroke) noexcept {
     turn(context, stroke);
@@ -144,15 +145,20 @@ EspResult jobsFor(EspContext& context, PaintStroke& stroke, float fill, TouchedB
 
 EspResult endStroke(EspContext& context, PaintStroke& stroke, const PartChanged& changed) {
     context.device->hostSubmitted();
-    stroke.open = false;
+    const bool open = std::exchange(stroke.open, false);
+    const auto lost = [&](const Failure& failure) {
+        stroke.open = open;
+        return failGpu(&context, failure);
+    };
     closeTown(context, stroke);
     for (PaintStroke::Part& part : stroke.parts) {
         if (!layerOf(context, stroke, part)) continue;
         Result<std::vector<uint64_t>> texels =
             context.painter->close(canvasOf(context, part.surface, stroke.layer), part.record);
-        if (!texels && context.device->lost()) return failGpu(&context, texels.failure());
+        if (!texels && context.device->lost()) return lost(texels.failure());
         if (changed) changed(part, texels ? *texels : std::vector<uint64_t>());
     }
+    if (Status kept = keepStroke(context, stroke); !kept) return lost(kept.failure());
     std::erase_if(stroke.parts, [&](PaintStroke::Part& part) {
         const bool idle = (part.record.blocks().empty() && !part.made) || !layerOf(context, stroke, part);
         if (idle) countStroke(layerOf(context, stroke, part), part, false);
@@ -180,6 +186,7 @@ EspResult swapStroke(EspContext& context, PaintStroke& stroke) {
         return failGpu(&context, swapped.failure());
     if (stroke.filled) std::swap(*stroke.filled, context.filled[stroke.layer]);
     town.done();
+    swapKept(context, stroke);
     turn(context, stroke);
     made.done();
     dropMade(context, stroke);

@@ -18,6 +18,14 @@ using TouchedBlocks = std::vector<std::pair<uint32_t, std::vector<uint32_t>>>;  
 EspResult jobsFor(EspContext& context, PaintStroke& stroke, float fill, TouchedBlocks touched,
                   std::vector<PaintJob>& jobs);
 
+// What a stroke paints on; the surface has a layer of this name.
+Canvas canvasOf(EspContext& context, uint32_t surface, const std::string& name);
+// The layer that a part has painted; null if it is gone, though there may be another of its name.
+PaintedLayer* layerOf(EspContext& context, const PaintStroke& stroke, const PaintStroke::Part& part);
+
+// Paints surfaces once more with all dabs of an open stroke, whose paint the host has no copy of.
+EspResult paintAgain(EspContext& context, PaintStroke& stroke);
+
 // Is told of a part's blocks that aren't as they were, and which of their texels; of none: all of them.
 using PartChanged = std::function<void(const PaintStroke::Part& part, const std::vector<uint64_t>& texels)>;
 
@@ -32,9 +40,11 @@ void withdraw(EspContext& context, PaintStroke& stroke) noexcept;
 // Undoes a stroke that has ended, or does it again: all of it or nothing.
 EspResult swapStroke(EspContext& context, PaintStroke& stroke);
 
-// What strokes do to layers of the town: those that it has or that its grammar reads. True: it has one of this name.
-// Its grammar may be none yet.
-bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs);
+// Whether strokes of this name reach a layer of the town: one that it has, or that its grammar reads. Its grammar may
+// be none yet.
+bool townTakes(const EspContext& context, const std::string& name);
+// What strokes do to that layer, if there is one. True: there is.
+void paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs);
 bool fillTown(EspContext& context, PaintStroke& stroke, float value);
 void closeTown(EspContext& context, PaintStroke& stroke);
 // The layer that the stroke has made is there once more, before it is done again.

@@ -36,8 +36,9 @@ SurfaceChange changeOfMove(const glm::mat4& before, const glm::mat4& after) {
 
 SurfaceChanges withChange(const EspContext& context, uint32_t instance, SurfaceChange change) {
     SurfaceChanges changes = context.surfaceChanges;
-    changes.resize(std::max<size_t>(changes.size(), context.surfaceSlots()));
-    std::vector<bool> reached(context.surfaceSlots());
+    const size_t slots = std::max<size_t>(context.surfaceSlots(), instance + 1);
+    changes.resize(std::max(changes.size(), slots));
+    std::vector<bool> reached(slots);
     reached[instance] = true;
     addReached(context, reached);
     const bool alone = std::ranges::count(reached, true) == 1;
@@ -58,6 +59,7 @@ void noteSurfaceChanges(EspContext& context) {
     std::vector<uint64_t>& noted = context.changes.seeds;
     context.seeds.forEach([&](uint32_t, const PlantedSeed& seed) {
         const uint32_t instance = instanceOf(seed.surface);
+        if (instance >= changes.size()) return;  // away
         if (other[instance] || (inputsChangedBy(changes[instance]) & asked.at(seed.grammar)) != 0)
             noted.push_back(seedKey(seed));
     });

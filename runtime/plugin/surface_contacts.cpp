@@ -119,10 +119,11 @@ void addReached(const EspContext& context, std::vector<bool>& instances) {
 
 bool buriedByOthers(const EspContext& context, const PlantedSeed& seed) {
     const auto hides = [&](const Stand& other, bool yields) {
-        const PlacedSurface &by = *context.surfaces.find(other.id), &own = *context.surfaces.find(seed.surface);
-        return hiddenBy({by.ground.get(), glm::dmat4(other.toWorld)},
+        const PlacedSurface *by = context.surfaces.find(other.id), *own = context.surfaces.find(seed.surface);
+        if (!by || !own) return false;  // gone since contacts were found
+        return hiddenBy({by->ground.get(), glm::dmat4(other.toWorld)},
                         {seed.position, seed.normal, kNoIndex, kNoIndex, false, yields},
-                        own.ground->texel() * own.scale);
+                        own->ground->texel() * own->scale);
     };
     return std::ranges::any_of(context.pairs, [&](const SurfacePair& pair) {
         return (pair.a.id == seed.surface && hides(pair.b, true)) ||

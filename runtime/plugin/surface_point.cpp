@@ -63,10 +63,11 @@ std::optional<SurfacePoint> pointOf(uint32_t id, const PlacedSurface& surface, c
 
 }  // namespace
 
-std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction) {
+std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction, bool seen) {
     std::optional<SurfacePoint> best;
     float reach = std::numeric_limits<float>::infinity();
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
+        if (seen && surface.hidden) return;
         const auto hit =
             surface.tree.pick(transformed(surface.toObject, origin), glm::mat3(surface.toObject) * direction, reach);
         if (!hit) return;
@@ -144,7 +145,7 @@ EspResult espPick(const EspContext* context, const float origin[3], const float 
     return guarded(context, [&] {
         if (!isRay(origin, direction))
             return fail(context, ESP_INVALID_ARGUMENT, "espPick: null pointer, or a ray that isn't one");
-        const auto point = pickSurfaces(*context, vec(origin), unitOf(vec(direction)));
+        const auto point = pickSurfaces(*context, vec(origin), unitOf(vec(direction)), true);
         // Not logged: a ray that meets nothing is an answer.
         if (!point) return ESP_INVALID_ARGUMENT;
         give("espPick", out, hitAt(*point));

@@ -32,7 +32,9 @@ struct SurfacePoint {
 // v: of any length but 0, though its square be more, or less, than a float holds.
 glm::vec3 unitOf(glm::vec3 v);
 // What the ray meets first; nothing: no surface. direction: unit.
-std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction);
+// seen: only those that aren't hidden.
+std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 origin, glm::vec3 direction,
+                                         bool seen = false);
 // Bare or not; nothing: no surface has any.
 std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::vec3 point);
 const char* whyNoneNear(const EspContext& context);  // for messages, where there is no nearest

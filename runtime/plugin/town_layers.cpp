@@ -12,7 +12,37 @@ namespace {
 
 constexpr float kHouseReach = 1.5f;  // metres that roofs go beyond their walls
 
+// Whether a layer holds something else within the rectangle than when the roofs grew over it. before: null where it
+// wasn't there, and `fill` was read.
+bool differs(const PlanLayer& layer, const std::vector<float>* before, float fill, const PlanRect& r, uint32_t side) {
+    for (uint32_t y = r.y0; y < r.y1; ++y)
+        for (size_t i = size_t(y) * side + r.x0; i < size_t(y) * side + r.x1; ++i)
+            if (layer.texels[i] != (before ? (*before)[i] : fill)) return true;
+    return false;
+}
+
 }  // namespace
+
+void LoadedTown::stands(Version version, bool wholly) {
+    const uint32_t side = layers.site().size;
+    const auto note = [&](const PlanLayer& layer, const PlanRect& r) {
+        std::vector<float>& texels = grownOver[layer.name];
+        if (texels.size() != layer.texels.size()) {
+            texels = layer.texels;
+            return;
+        }
+        for (uint32_t y = r.y0; y < r.y1; ++y)
+            std::copy_n(&layer.texels[size_t(y) * side + r.x0], r.x1 - r.x0, &texels[size_t(y) * side + r.x0]);
+    };
+    std::erase_if(grownOver, [&](const auto& entry) { return !layers.find(entry.first); });
+    for (const auto& [layerName, rect] : painted)
+        if (const PlanLayer* layer = layers.find(layerName); layer && !wholly && !rect.empty()) note(*layer, rect);
+    if (wholly)
+        for (const PlanLayer& layer : layers.all()) note(layer, layers.whole());
+    grown = version;
+    changed.clear();
+    painted.clear();
+}
 
 const LoadedGrammar* townGrammar(const EspContext& context) {
     return context.town ? context.grammars.find(context.town->grammar) : nullptr;
@@ -38,6 +68,8 @@ void bindTownLayers(EspContext& context, RoofInputs& inputs) {
     for (size_t i = 0; i < count; ++i) {
         const ContextInfo& declared = grammar.map.contexts()[i];
         const PlanLayer* layer = town.layers.find(declared.name);
+        const auto before = town.grownOver.find(declared.name);
+        const std::vector<float>* grownOver = before == town.grownOver.end() ? nullptr : &before->second;
         PlanRect changed;
         for (const auto& [name, rect] : town.painted)
             if (name == declared.name) changed = rect;
@@ -46,7 +78,11 @@ void bindTownLayers(EspContext& context, RoofInputs& inputs) {
         inputs.layers[i].rowCount = anew ? ~0u : changed.empty() ? 0 : changed.y1 - changed.y0;
         for (uint32_t h = 0; h < houses.size(); ++h) {
             float& mean = town.means[h * kRoofLayers + i];
-            const bool fresh = anew || edited[h] || changed.meets(town.layers.under(houses[h], kHouseReach));
+            const PlanRect under = town.layers.under(houses[h], kHouseReach);
+            const bool painted =
+                changed.meets(under) &&
+                (!layer || differs(*layer, grownOver, declared.fill, under.within(changed), town.layers.site().size));
+            const bool fresh = anew || edited[h] || painted;
             if (!layer)
                 mean = declared.fill;
             else if (fresh)

@@ -43,14 +43,6 @@ PlanLayer& reach(EspContext& context, PaintStroke& stroke) {
     return *layer;
 }
 
-// Whether strokes reach a layer of that name: one that there is, or that the town's grammar reads.
-bool isPaintable(const EspContext& context, const std::string& name) {
-    if (!context.town) return false;
-    const LoadedGrammar* grammar = townGrammar(context);
-    const auto index = grammar ? grammar->map.findContext(name) : std::nullopt;
-    return (index && *index < kRoofLayers) || context.town->layers.find(name);
-}
-
 // Bilinear, between the centres of texels.
 std::vector<float> resampled(const float* texels, uint32_t width, uint32_t height, uint32_t side) {
     std::vector<float> out(size_t(side) * side);
@@ -99,11 +91,18 @@ EspResult setLayer(EspContext& context, const std::string& name, std::span<const
 
 }  // namespace
 
-bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs) {
-    if (!isPaintable(context, stroke.layer)) return false;
+bool townTakes(const EspContext& context, const std::string& name) {
+    if (!context.town) return false;
+    const LoadedGrammar* grammar = townGrammar(context);
+    const auto index = grammar ? grammar->map.findContext(name) : std::nullopt;
+    return (index && *index < kRoofLayers) || context.town->layers.find(name);
+}
+
+void paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabRecord> dabs) {
+    if (!townTakes(context, stroke.layer)) return;
     LoadedTown& town = *context.town;
     BrushRecord brush = stroke.brush;
-    if (!town.layers.meets(brush, dabs)) return true;
+    if (!town.layers.meets(brush, dabs)) return;
     PlanLayer& layer = reach(context, stroke);
     float filled = 0;
     if (stroke.erases && !espLayerFilled(&context, stroke.layer.c_str(), &filled))
@@ -117,11 +116,10 @@ bool paintTown(EspContext& context, PaintStroke& stroke, std::span<const DabReco
         context.nodes.town.change();
     }
     untold.done();
-    return true;
 }
 
 bool fillTown(EspContext& context, PaintStroke& stroke, float value) {
-    if (!isPaintable(context, stroke.layer)) return false;
+    if (!townTakes(context, stroke.layer)) return false;
     LoadedTown& town = *context.town;
     PlanLayer& layer = reach(context, stroke);
     notesOf(town, stroke.layer).add(town.layers.fill(layer, value, stroke.plan.record));

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "runtime/emit/emit.hpp"
+#include "runtime/render/graph_draw.hpp"
 #include "runtime/render/ground.hpp"
 #include "runtime/render/pass_format.hpp"
 #include "runtime/render/piece_draw.hpp"
@@ -68,6 +69,7 @@ struct DrawInputs {
     GroundLook ground;
     Camera camera;
     Look look;
+    glm::dvec3 origin{0};  // of the world, seen from where it was at first
 };
 
 // What a host has drawn already: growth is drawn into it, hidden by what lies nearer. The depth buffer holds

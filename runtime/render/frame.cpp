@@ -37,6 +37,24 @@ glm::mat4 viewMatrix(glm::vec3 eye, glm::vec3 forward, glm::vec3 up, glm::vec3& 
     return m;
 }
 
+// Both the sky and what else lights are that dim.
+float nightOf(const Look& look) {
+    constexpr glm::vec3 kWeights(0.3f, 0.6f, 0.1f);
+    const float sky = glm::dot(look.skyColor, kWeights), sun = glm::dot(look.sunColor, kWeights);
+    return std::clamp((0.48f - sky) * 4, 0.0f, 1.0f) * std::clamp((1.0f - sun) * 3, 0.0f, 1.0f);
+}
+
+// Pictures that lie fractions of a pixel apart look for shadows in other places, so that their mean has soft ones.
+// from: FrameRecord::ditherFrom.
+glm::vec2 shadowTap(glm::vec2 from) {
+    constexpr glm::vec2 kFirst(1, 0.4f);
+    if (from == glm::vec2(0)) return kFirst;
+    const float at = glm::fract(glm::dot(from, glm::vec2(0.618034f, 0.754878f)));
+    const float angle = at * 2 * std::numbers::pi_v<float>, wide = 0.5f + 1.1f * glm::fract(at * 7.31f);
+    const float c = std::cos(angle) * wide, s = std::sin(angle) * wide;
+    return {kFirst.x * c - kFirst.y * s, kFirst.x * s + kFirst.y * c};
+}
+
 // All turns at rates of their own, so that a wind that rises or falls makes nothing jump.
 void blow(const Look& look, FrameRecord& frame) {
     constexpr double kRates[3] = {0.31, 1.3, 4.1};             // of gusts, leaning and fluttering, turns a second
@@ -89,17 +107,30 @@ FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height)
     frame.background = look.background;
     frame.shadows = look.shadows ? 1 : 0;
     frame.horizon = look.horizon;
-    frame.groundLevel = inputs.ground.drawn ? inputs.ground.height : kNoGround;
+    frame.groundLevel = inputs.ground.kind != GroundKind::none ? inputs.ground.height : kNoGround;
     frame.grassColor = inputs.ground.colour;
     frame.rayRight = right * (tangent * aspect);
     frame.rayUp = up * tangent;
     frame.rayForward = forward - camera.shift.x * frame.rayRight - camera.shift.y * frame.rayUp;
     frame.pixelScale = float(height) / (2 * tangent);
+    frame.night = nightOf(look);
+    frame.ditherFrom = glm::mod(glm::round(camera.shift * 32.0f * glm::vec2(width, height)), 64.0f);
+    frame.shadowTap = shadowTap(frame.ditherFrom);
     blow(look, frame);
     frame.unit = 1;
     frame.surfaces = inputs.surfaces;
     frame.layers = inputs.layers;
     return frame;
+}
+
+// Sines of leaf_vertex.glsl repeat after ten turns: of 0.6, 0.8, 1.1 and 1.3 of a turn these make whole ones.
+void anchorLook(FrameRecord& frame, const glm::dvec3& origin) {
+    constexpr double kTurn = 6.283185307179586;
+    const glm::dvec3 place = origin / double(frame.unit);
+    const auto rest = [](double turns, double period) { return float(std::fmod(turns, period)); };
+    for (int k = 0; k < 3; ++k) frame.tonesFrom[k] = rest(place[k] * double(kTonesPerUnit), 10 * kTurn);
+    frame.windTurns.x -= rest(glm::dot(place, glm::dvec3(frame.wind)) * double(kGustTurns), kTurn);
+    frame.gustsFrom = rest(glm::dot(place, glm::dvec3(ESPALIER_GUST_PHASE)), kTurn);
 }
 
 ViewShape::ViewShape(const PassView& pass) {

@@ -13,6 +13,10 @@ constexpr float kLeastNearPlane = 1e-4f;  // metres
 // A camera and a look as the shaders want them. Sizes in pixels.
 FrameRecord makeFrame(const DrawInputs& inputs, uint32_t width, uint32_t height);
 
+// Looks that depend on places stay where they are while the world's origin moves. After the record's unit is known.
+// origin: seen from the first one.
+void anchorLook(FrameRecord& frame, const glm::dvec3& origin);
+
 // What a view by matrices is.
 struct ViewShape {
     explicit ViewShape(const PassView& pass);

@@ -11,11 +11,14 @@
 
 namespace espalier {
 
+// A meadow to the horizon, or a studio's floor: a soft disc around all models, which goes over into the sky.
+enum class GroundKind : uint32_t { none = 0, meadow = 1, studio = 2 };
+
 struct GroundLook {
-    bool drawn = false;
+    GroundKind kind = GroundKind::none;
     float height = 0;                          // world, metres
-    glm::vec3 colour{0.085f, 0.105f, 0.045f};  // of its grass, linear
-    bool overgrows = true;                     // what of models lies almost as low
+    glm::vec3 colour{0.085f, 0.105f, 0.045f};  // of a meadow's grass, linear
+    bool overgrows = true;                     // a meadow: what of models lies almost as low
 };
 
 // What lies on the meadow of a site, seen from above: 8-bit RGBA, the first row at low.y (world z). Red: 0.5 at a

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "runtime/gpu/color_texture.hpp"
@@ -11,14 +12,11 @@
 namespace espalier {
 namespace {
 
-Result<Image> makeNormals(Device& device, std::string_view name, uint32_t width, uint32_t height,
-                          std::span<const uint8_t> rgba) {
-    ImageDesc desc{.name = name, .width = width, .height = height};
-    desc.levels = 0;
-    Result<Image> image = Image::create(device, desc);
-    if (!image) return image;
-    if (Status s = fillImage(device, *image, std::as_bytes(rgba)); !s) return s.failure();
-    return image;
+size_t addNormals(Upload& upload, std::string name, uint32_t width, uint32_t height, std::span<const uint8_t> rgba,
+                  bool) {
+    const auto bytes = std::as_bytes(rgba);
+    return upload.addImage(std::move(name), VK_FORMAT_R8G8B8A8_UNORM, width, height,
+                           std::vector<std::byte>(bytes.begin(), bytes.end()));
 }
 
 }  // namespace
@@ -43,18 +41,34 @@ void takeModelPositions(GraphicsDesc& desc, bool pictured) {
 Result<Models> Models::create(Device& device) {
     Models models;
     const uint8_t white[4] = {255, 255, 255, 255}, flat[4] = {128, 128, 255, 255};
-    if (Status made = assign(models.white_, makeColorTexture(device, "white", 1, 1, white)); !made)
-        return made.failure();
-    if (Status made = assign(models.flat_, makeNormals(device, "flat normal", 1, 1, flat)); !made)
-        return made.failure();
-    Result<Sampler> sampler =
-        Sampler::create(device, {.name = "model textures", .anisotropy = device.info().traits.anisotropy});
-    if (!sampler) return sampler.failure();
-    models.sampler_ = std::move(*sampler);
-    Result<Sampler> quick = Sampler::create(device, {.name = "model textures, quick", .blendMips = false});
-    if (!quick) return quick.failure();
-    models.quickSampler_ = std::move(*quick);
+    Upload upload;
+    const size_t whites = addColorTexture(upload, "white", 1, 1, white, holdsRoots(device));
+    const size_t flats = addNormals(upload, "flat normal", 1, 1, flat, false);
+    if (Status made = upload.run(device); !made) return made.failure();
+    models.white_ = upload.takeImage(whites);
+    models.flat_ = upload.takeImage(flats);
+    if (Status made = models.makeSamplers(device); !made) return made.failure();
     return models;
+}
+
+Status Models::makeSamplers(Device& device) {
+    constexpr VkSamplerAddressMode kModes[kWraps] = {
+        VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT};
+    for (uint32_t i = 0; i < kWraps * kWraps; ++i) {
+        const SamplerDesc wraps{
+            .name = "model textures", .address = kModes[i % kWraps], .addressV = kModes[i / kWraps]};
+        SamplerDesc fine = wraps, quick = wraps;
+        fine.anisotropy = device.info().traits.anisotropy;
+        quick.blendMips = false;
+        if (Status made = assign(samplers_[i], Sampler::create(device, fine)); !made) return made;
+        if (Status made = assign(quickSamplers_[i], Sampler::create(device, quick)); !made) return made;
+    }
+    return Done{};
+}
+
+const Sampler& Models::samplerOf(const Material& material, bool quick) const {
+    const size_t wraps = size_t(material.wrapU) + kWraps * size_t(material.wrapV);
+    return quick ? quickSamplers_[wraps] : samplers_[wraps];
 }
 
 // Which way is up, and how high storeys are.
@@ -89,7 +103,8 @@ Models::Storeys Models::intoStoreys(const Model& model, std::span<const DrawVert
     return ends;
 }
 
-Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& model) {
+void Models::planMeshes(const SurfaceData& data, Plan& plan, Upload& upload) {
+    Model& model = plan.model;
     std::vector<DrawVertex> vertices = data.vertices;
     std::vector<uint32_t> indices = data.indices;
     model.meshes.push_back({.ranges = data.ranges});
@@ -116,33 +131,32 @@ Status Models::uploadMeshes(Device& device, const SurfaceData& data, Model& mode
         for (const DrawRange& range : mesh.ranges)
             mesh.panes.push_back(model.materialOf(range).blended ? intoPanes(from, range, indices) : Panes{});
     }
-    if (Status made = assign(model.vertices, makeBuffer(device, "model vertices", vertices)); !made)
-        return made.failure();
-    return assign(model.indices, makeBuffer(device, "model indices", indices));
+    plan.vertices = upload.addBuffer("model vertices", vertices);
+    plan.indices = upload.addBuffer("model indices", indices);
 }
 
-Status Models::uploadPictures(Device& device, const SurfaceData& data, Model& model) {
-    model.colors.resize(data.images.size());
-    model.normals.resize(data.images.size());
-    for (const Material& material : model.materials) {
+void Models::planPictures(const SurfaceData& data, bool roots, Plan& plan, Upload& upload) {
+    plan.colors.assign(data.images.size(), Plan::kNone);
+    plan.normals.assign(data.images.size(), Plan::kNone);
+    for (const Material& material : plan.model.materials) {
         const struct {
             int index;
-            std::vector<Image>& images;
-            Result<Image> (*make)(Device&, std::string_view, uint32_t, uint32_t, std::span<const uint8_t>);
+            std::vector<size_t>& images;
+            size_t (*add)(Upload&, std::string, uint32_t, uint32_t, std::span<const uint8_t>, bool roots);
             const char* name;
-        } uses[] = {{material.baseColorImage, model.colors, makeColorTexture, "model colour"},
-                    {material.emissiveImage, model.colors, makeColorTexture, "model emission"},
-                    {material.normalImage, model.normals, makeNormals, "model normals"}};
+        } uses[] = {{material.baseColorImage, plan.colors, addColorTexture, "model colour"},
+                    {material.emissiveImage, plan.colors, addColorTexture, "model emission"},
+                    {material.normalImage, plan.normals, addNormals, "model normals"},
+                    {material.roughnessImage, plan.normals, addNormals, "model roughness"}};
         for (const auto& use : uses) {
-            if (use.index < 0 || size_t(use.index) >= data.images.size() || use.images[size_t(use.index)]) continue;
+            if (use.index < 0 || size_t(use.index) >= data.images.size()) continue;
+            size_t& image = use.images[size_t(use.index)];
             const Picture& picture = data.images[size_t(use.index)];
-            if (picture.width == 0 || picture.rgba.size() != size_t(picture.width) * picture.height * 4) continue;
-            Result<Image> image = use.make(device, use.name, picture.width, picture.height, picture.rgba);
-            if (!image) return image.failure();
-            use.images[size_t(use.index)] = std::move(*image);
+            if (image != Plan::kNone || picture.width == 0) continue;
+            if (picture.rgba.size() != size_t(picture.width) * picture.height * 4) continue;
+            image = use.add(upload, use.name, picture.width, picture.height, picture.rgba, roots);
         }
     }
-    return Done{};
 }
 
 void Models::Model::place(const glm::mat4& to) {
@@ -158,19 +172,43 @@ void Models::Model::place(const glm::mat4& to) {
     }
 }
 
-Status Models::set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly) {
-    Model model;
+Models::Plan Models::plan(const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly, bool roots,
+                          Upload& upload) {
+    Plan plan;
+    Model& model = plan.model;
     model.groundOnly = groundOnly;
     model.objectLow = data.boundsMin;
     model.objectHigh = data.boundsMax;
     model.place(toWorld);
     model.materials = data.materials;
     if (model.materials.empty()) model.materials.emplace_back();
-    if (Status s = uploadMeshes(device, data, model); !s) return s;
-    if (Status s = uploadPictures(device, data, model); !s) return s;
-    if (Status s = uploadRecords(device, model); !s) return s;
+    planMeshes(data, plan, upload);
+    planPictures(data, roots, plan, upload);
+    planRecords(plan, upload);
+    return plan;
+}
+
+void Models::set(uint32_t index, Plan plan, Upload& upload) {
+    Model& model = plan.model;
+    const auto take = [&](const std::vector<size_t>& planned, auto& into, auto taken) {
+        into.resize(planned.size());
+        for (size_t i = 0; i < planned.size(); ++i)
+            if (planned[i] != Plan::kNone) into[i] = (upload.*taken)(planned[i]);
+    };
+    model.vertices = upload.takeBuffer(plan.vertices);
+    model.indices = upload.takeBuffer(plan.indices);
+    take(plan.colors, model.colors, &Upload::takeImage);
+    take(plan.normals, model.normals, &Upload::takeImage);
+    take(plan.records, model.records, &Upload::takeBuffer);
     models_.insert_or_assign(index, std::move(model));
     ++revision_;
+}
+
+Status Models::set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly) {
+    Upload upload;
+    Plan planned = plan(data, toWorld, groundOnly, holdsRoots(device), upload);
+    if (Status done = upload.run(device); !done) return done;
+    set(index, std::move(planned), upload);
     return Done{};
 }
 
@@ -186,6 +224,13 @@ void Models::place(uint32_t index, const glm::mat4& toWorld) {
     const float grows = glm::length(glm::vec3(toWorld[0])) / glm::length(glm::vec3(model.toWorld[0]));
     for (auto& mesh : model.meshes) mesh.error *= grows;
     model.place(toWorld);
+    ++revision_;
+}
+
+void Models::hide(uint32_t index, bool hidden) {
+    const auto found = models_.find(index);
+    if (found == models_.end() || found->second.hidden == hidden) return;
+    found->second.hidden = hidden;
     ++revision_;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/gpu/commands.hpp"
+#include "runtime/gpu/upload.hpp"
 #include "runtime/graph/node.hpp"
 #include "runtime/render/ground.hpp"
 #include "runtime/surface/length_unit.hpp"
@@ -33,8 +34,15 @@ class Models {
 
     // groundOnly: something else draws it, see draw().
     Status set(Device& device, uint32_t index, const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly);
+    // The same in steps: what is to be uploaded, on any thread, and the model once the upload has been submitted.
+    // roots: holdsRoots().
+    class Plan;
+    static Plan plan(const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly, bool roots, Upload& upload);
+    void set(uint32_t index, Plan plan, Upload& upload);
     void remove(uint32_t index);
     void place(uint32_t index, const glm::mat4& toWorld);
+    // Neither drawn nor casting a shadow, in any view, until it is set anew or shown.
+    void hide(uint32_t index, bool hidden);
 
     // Picks for each model the simplest mesh whose error is at most `pixels` where the model is nearest. Once before a
     // frame's draw: when the pick changes, the one mesh takes over from the other within the next kFadeFrames,
@@ -44,7 +52,7 @@ class Models {
     static constexpr uint32_t kFadeFrames = 8;
 
     // Whether some of them have materials that aren't plain: programs for these are made when there are any.
-    bool anyMapped() const;  // textures by UVs of their own, or light
+    bool anyMapped() const;  // textures by UVs of their own, light, what mirrors
     bool anyGlass() const;   // blended with what lies behind
 
     // Draws all of them as chosen, but for those that are ground only if `drawnOnly`: triangles over which the meadow
@@ -113,6 +121,7 @@ class Models {
         uint32_t shown = 0, before = 0;
         uint32_t step = 0;  // of kFadeFrames from `before` to `shown`; 0: never drawn
         bool groundOnly = false;
+        bool hidden = false;
         bool seen = true;  // some of it may lie in the view
         std::vector<Material> materials;
         std::vector<Image> colors, normals;  // one a picture of the file; empty where unused in that role
@@ -131,15 +140,17 @@ class Models {
     static Storeys intoStoreys(const Model& model, std::span<const DrawVertex> vertices, std::span<uint32_t> indices);
     // Indices at a range's front whose triangles the meadow may reach.
     static uint32_t footOf(const Model& model, const Mesh& mesh, size_t range, float groundLevel, float unit);
-    Status uploadMeshes(Device& device, const SurfaceData& data, Model& model);
-    Status uploadPictures(Device& device, const SurfaceData& data, Model& model);
-    Status uploadRecords(Device& device, Model& model);
+    static void planMeshes(const SurfaceData& data, Plan& plan, Upload& upload);
+    static void planPictures(const SurfaceData& data, bool roots, Plan& plan, Upload& upload);
+    static void planRecords(Plan& plan, Upload& upload);
     // Appends a range's triangles in the order of each direction.
     static Panes intoPanes(std::span<const DrawVertex> vertices, const DrawRange& range,
                            std::vector<uint32_t>& indices);
     static bool isMapped(const Material& material);
     void drawMapped(DrawPass& pass, const Program& program, const Drawn& with, const Model& model,
                     const DrawRange& range, const DrawPass::IndexRange& indices, const ModelPush& push) const;
+    Status makeSamplers(Device& device);
+    const Sampler& samplerOf(const Material& material, bool quick) const;
     ModelPush pushOf(const Model& model, uint32_t mesh, const Material& material, uint32_t surface) const;
     static bool standsAs(const Model& model);
     // Where `eye` is, the mesh's backs may be seen.
@@ -150,10 +161,19 @@ class Models {
 
     std::map<uint32_t, Model> models_;
     Image white_, flat_;
-    Sampler sampler_, quickSampler_;
+    std::array<Sampler, kWraps * kWraps> samplers_, quickSamplers_;  // by what lies beyond borders
     uint64_t revision_ = 1;
     glm::vec3 eye_{0};  // as chosen for
     float groundLevel_ = 0;
+};
+
+// A model, and by which numbers the upload knows its buffers and images.
+class Models::Plan {
+    friend class Models;
+    static constexpr size_t kNone = ~size_t(0);
+    Model model;
+    size_t vertices = kNone, indices = kNone;
+    std::vector<size_t> colors, normals, records;  // as Model's; kNone: there is none
 };
 
 // each(mesh, fade): the mesh that is drawn, or the two that share the picture.

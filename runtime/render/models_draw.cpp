@@ -11,11 +11,12 @@ namespace {
 
 // Nothing real is wholly black or wholly white, yet converters leave zero where they lost the material (FBX's Lambert)
 // and a file without materials means one. Such a surface is drawn as plaster, so that light and shadow show on it. What
-// shines by itself is black on purpose.
+// shines by itself is black on purpose, and a mirror white.
 glm::vec4 shownColor(const Material& material) {
     const glm::vec4 c = material.baseColor;
+    const bool mirrors = material.metallic > 0 && (material.roughness < 1 || material.roughnessImage >= 0);
     const bool lost = material.baseColorImage < 0 && !material.coloured && material.emissive == glm::vec3(0) &&
-                      (std::max({c.x, c.y, c.z}) < 1e-4f || std::min({c.x, c.y, c.z}) > 0.999f);
+                      !mirrors && (std::max({c.x, c.y, c.z}) < 1e-4f || std::min({c.x, c.y, c.z}) > 0.999f);
     return lost ? glm::vec4(0.30f, 0.285f, 0.26f, c.w) : c;
 }
 
@@ -66,7 +67,7 @@ void Models::choose(const FrameRecord& frame, float pixels, bool atOnce) {
     groundLevel_ = frame.groundLevel;
     const ViewSides sides(frame.viewProjection);
     for (auto& [index, model] : models_) {
-        model.seen = !sides.misses(model.low, model.high);
+        model.seen = !model.hidden && !sides.misses(model.low, model.high);
         if (model.groundOnly) {
             model.step = kFadeFrames;
             continue;
@@ -109,7 +110,6 @@ ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& mate
 
 void Models::draw(DrawPass& pass, const Drawn& with) const {
     const bool quick = isQuick(with.shading);
-    const Sampler& sampler = quick ? quickSampler_ : sampler_;
     for (const auto& entry : models_) {
         const uint32_t index = entry.first;  // clang 14 hands no structured binding to a lambda
         const Model& model = entry.second;
@@ -126,6 +126,7 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
                 push.fade = fade;
                 push.alphaCutoff = cutoffOf(material);
                 pass.drawBacks(showsBacks(model, mesh, material));
+                const Sampler& sampler = samplerOf(material, quick);
                 const uint32_t foot = footOf(model, mesh, r, with.meadowLevel, with.unit);
                 const auto drawPart = [&](bool isFoot, uint32_t first, uint32_t count) {
                     if (count == 0) return;
@@ -178,7 +179,7 @@ void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fadi
 void Models::drawDepth(DrawPass& pass, const Program& whole, const Program& cut, const Buffer& frame,
                        float error) const {
     for (const auto& [index, model] : models_) {
-        if (model.groundOnly) continue;
+        if (model.groundOnly || model.hidden) continue;
         pass.setVertices(model.vertices);
         pass.setIndices(model.indices);
         const uint32_t mesh = simplest(model, error);
@@ -189,8 +190,9 @@ void Models::drawDepth(DrawPass& pass, const Program& whole, const Program& cut,
             ModelPush push = pushOf(model, mesh, material, index);
             if (material.blended) push.alphaCutoff = kBlendCutoff;
             if (push.alphaCutoff > 0)
-                pass.drawIndexed(cut, draw, push,
-                                 {{pictureOr(model.colors, material.baseColorImage, white_), sampler_}, frame});
+                pass.drawIndexed(
+                    cut, draw, push,
+                    {{pictureOr(model.colors, material.baseColorImage, white_), samplerOf(material, false)}, frame});
             else
                 pass.drawIndexed(whole, draw, push, {frame});
         }

@@ -1,7 +1,7 @@
-// Enters: models with materials that aren't plain: textures by UVs of their own, light, glass. Leaves: their records,
-// and draws. Glass is sorted when a model is set, once for each of a few directions: so it costs no time in a frame,
-// and is the same in every run. Panes that cross each other, and long ones that lie aslant, may be drawn in the wrong
-// order.
+// Enters: models with materials that aren't plain: textures by UVs of their own, light, metal, glass. Leaves: their
+// records, and draws. Glass is sorted when a model is set, once for each of a few directions: so it costs no time in a
+// frame, and is the same in every run. Panes that cross each other, and long ones that lie aslant, may be drawn in the
+// wrong order.
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -10,6 +10,8 @@
 
 namespace espalier {
 namespace {
+
+constexpr float kShiny = 0.4f;  // what is less rough than that mirrors what is around it
 
 // The corners, edges and sides of a cube.
 constexpr size_t kDirections = 26;
@@ -30,7 +32,8 @@ size_t nearestDirection(glm::vec3 along) {
 }  // namespace
 
 bool Models::isMapped(const Material& m) {
-    return m.blended || m.emissive != glm::vec3(0) || m.baseColorMap != TextureMap() || m.normalMap != TextureMap();
+    return m.blended || m.emissive != glm::vec3(0) || m.baseColorMap != TextureMap() || m.normalMap != TextureMap() ||
+           m.metallic > 0 || m.roughnessImage >= 0 || m.roughness < kShiny;
 }
 
 bool Models::anyMapped() const {
@@ -43,18 +46,17 @@ bool Models::anyGlass() const {
         models_, [](const auto& m) { return std::ranges::any_of(m.second.materials, &Material::blended); });
 }
 
-Status Models::uploadRecords(Device& device, Model& model) {
-    model.records.resize(model.materials.size());
-    for (size_t i = 0; i < model.materials.size(); ++i) {
-        const Material& m = model.materials[i];
+void Models::planRecords(Plan& plan, Upload& upload) {
+    plan.records.assign(plan.model.materials.size(), Plan::kNone);
+    for (size_t i = 0; i < plan.records.size(); ++i) {
+        const Material& m = plan.model.materials[i];
         if (!isMapped(m)) continue;
-        const auto normal = rowsOf(m.normalMap), emissive = rowsOf(m.emissiveMap);
-        const MaterialRecord record{normal[0],  normal[1],       emissive[0],       emissive[1],
-                                    m.emissive, m.normalMap.set, m.emissiveMap.set, m.transmission};
-        if (Status made = assign(model.records[i], makeBuffer(device, "material", std::vector{record})); !made)
-            return made.failure();
+        const auto normal = rowsOf(m.normalMap), emissive = rowsOf(m.emissiveMap), rough = rowsOf(m.roughnessMap);
+        const MaterialRecord record{normal[0],  normal[1],       emissive[0],        emissive[1],
+                                    m.emissive, m.normalMap.set, m.emissiveMap.set,  m.transmission,
+                                    rough[0],   rough[1],        m.roughnessMap.set, m.metallic};
+        plan.records[i] = upload.addBuffer("material", std::vector{record});
     }
-    return Done{};
 }
 
 Models::Panes Models::intoPanes(std::span<const DrawVertex> vertices, const DrawRange& range,
@@ -82,7 +84,7 @@ void Models::drawMapped(DrawPass& pass, const Program& program, const Drawn& wit
                         const DrawRange& range, const DrawPass::IndexRange& indices, const ModelPush& push) const {
     const Material& material = model.materialOf(range);
     const bool quick = isQuick(with.shading);
-    const Sampler& sampler = quick ? quickSampler_ : sampler_;
+    const Sampler& sampler = samplerOf(material, quick);
     const size_t record = std::min<size_t>(range.material, model.records.size() - 1);
     pass.drawIndexed(program, indices, push,
                      {{pictureOr(model.colors, material.baseColorImage, white_), sampler},
@@ -92,6 +94,7 @@ void Models::drawMapped(DrawPass& pass, const Program& program, const Drawn& wit
                       with.ground.siteBinding(quick),
                       with.ground.pavingBinding(quick),
                       {pictureOr(model.colors, material.emissiveImage, white_), sampler},
+                      {pictureOr(model.normals, material.roughnessImage, white_), sampler},
                       with.frame,
                       model.records[record]});
 }
@@ -134,7 +137,7 @@ void Models::drawGlass(DrawPass& pass, const Drawn& with, const GlassPrograms& p
             (material.baseColorImage >= 0 || glm::vec3(material.baseColor) != glm::vec3(1)))
             pass.drawIndexed(programs.tint, indices, push,
                              {{pictureOr(r.model->colors, material.baseColorImage, white_),
-                               isQuick(with.shading) ? quickSampler_ : sampler_},
+                               samplerOf(material, isQuick(with.shading))},
                               with.frame,
                               r.model->records[std::min<size_t>(range.material, r.model->records.size() - 1)]});
         drawMapped(pass, programs.glass, with, *r.model, range, indices, push);

@@ -30,7 +30,7 @@ inline PassFormat scenePass(uint32_t samples) {
     return {.colors = {kSceneFormat}, .samples = samples};
 }
 inline PassFormat shadowPass() {
-    return {.reversed = false, .biasConstant = 2, .biasSlope = 1.8f};
+    return {.colors = {}, .reversed = false, .biasConstant = 2, .biasSlope = 1.8f};
 }
 
 // A program for such a pass. constants: besides what the pass says itself.

@@ -91,6 +91,14 @@ Status Renderer::placePieces(std::vector<PatternPiece> pieces) {
     return pieces_ ? pieces_->place(std::move(pieces)) : Status(Done{});
 }
 
+Status Renderer::placeGraph(Geometry parts, std::span<const NodeBox> boxes) {
+    unprepare();
+    if (!graph_ && parts.empty()) return Done{};
+    if (!graph_)
+        if (Status made = assign(graph_, GraphDraw::create(device_)); !made) return made;
+    return graph_->place(std::move(parts), boxes);
+}
+
 Models::Drawn Renderer::modelsDrawn() const {
     return {{&now_.scene->model, &now_.scene->modelFoot},
             {&now_.scene->modelMapped, &now_.scene->modelMappedFoot},
@@ -107,7 +115,7 @@ Models::Drawn Renderer::modelsDrawn() const {
 
 // All that growth stands among. Of a moving picture a software device begins with what comes before a time stamp, in
 // all threads, while one sets up the rest.
-void Renderer::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post) {
+void Renderer::drawSurroundings(DrawPass& pass, const PostPush& post) {
     std::optional<Pass> part;
     const auto begin = [&](const char* name) {
         if (isQuick(now_.shading)) part.emplace(pass.commands(), name);
@@ -120,7 +128,10 @@ void Renderer::drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const 
                      now_.plain ? plainOf(now_.shading) : now_.shading);
     }
     begin("draw ground");
-    if (post.ground != 0) ground_.draw(pass, post, *now_.frame, shadowMap_, shadowSampler_, now_.shading);
+    if (now_.ground == GroundKind::meadow)
+        ground_.draw(pass, post, *now_.frame, shadowMap_, shadowSampler_, now_.shading);
+    else if (now_.ground == GroundKind::studio)
+        pass.draw(now_.scene->studio, 3, 1, post, {{shadowMap_, shadowSampler_}, *now_.frame});
 }
 
 // What hides growth. Where the picture is ours and shaded, that is depths only: what growth hides isn't shaded at all.
@@ -148,7 +159,7 @@ Status Renderer::drawModels(Commands& commands, const DrawInputs& inputs, const 
     commands.transition(targets_.color, ImageState::colorTarget, !now_.hosted);
     commands.transition(targets_.depth, ImageState::depthTarget, !now_.hosted);
     DrawPass pass(commands, "draw scene", targets);
-    if (!now_.hosted || target.host.models) drawSurroundings(pass, inputs, post);
+    if (!now_.hosted || target.host.models) drawSurroundings(pass, post);
     return Done{};
 }
 
@@ -167,7 +178,8 @@ uint64_t Renderer::sceneOf(const DrawInputs& inputs) {
     ++sceneNumber_;
     if (now_.hosted || models_.fading() > 0) return sceneNumber_ << 32;
     const Look& look = inputs.look;
-    const uint64_t ground = inputs.ground.drawn ? std::bit_cast<uint32_t>(inputs.ground.height) : 1ull << 32;
+    const uint64_t ground =
+        inputs.ground.kind != GroundKind::none ? std::bit_cast<uint32_t>(inputs.ground.height) : 1ull << 32;
     return combineKeys(mix64(standing()), ground + (uint64_t(look.view) << 40) + (uint64_t(look.quick) << 33));
 }
 
@@ -193,20 +205,32 @@ Status Renderer::cullGrowth(Commands& commands, const DrawInputs& inputs, EmitVi
     return emit_.cull(commands, emitInputs(inputs), view, "emit", true);
 }
 
+void Renderer::aimStudio(const DrawInputs& inputs, FrameRecord& frame) const {
+    constexpr float kReach = 3.2f;  // of the floor, in half the size of what stands on it
+    glm::vec3 low, high;
+    models_.bounds(low, high);
+    if (now_.roofed) {
+        low = models_.empty() ? inputs.roofs->low : glm::min(low, inputs.roofs->low);
+        high = models_.empty() ? inputs.roofs->high : glm::max(high, inputs.roofs->high);
+    }
+    frame.studioAt = 0.5f * glm::vec2(low.x + high.x, low.z + high.z);
+    frame.studioRadius = kReach * std::max(0.5f * glm::length(high - low), 1e-3f);
+}
+
 // Hills only where they may be: software devices look for them at each pixel.
 void Renderer::drawSky(DrawPass& pass, const FrameRecord& frame, const PostPush& post) {
     const uint32_t width = targets_.width, height = targets_.height;
-    const uint32_t above = post.ground != 0 ? rowsAboveHills(frame, height) : height;
+    const uint32_t above = now_.ground == GroundKind::meadow ? rowsAboveHills(frame, height) : height;
     for (const bool hills : {false, true}) {
         const uint32_t first = hills ? above : 0, end = hills ? height : above;
         if (first == end) continue;
         pass.setScissor(0, int32_t(first), width, end - first);
         pass.draw(sky_[hills], 3, 1, post, {ground_.noiseBinding(true), ground_.skylineBinding(), *now_.frame});
     }
+    pass.setScissor(0, 0, width, height);
 }
 
-void Renderer::drawGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame,
-                          const PostPush& post) {
+void Renderer::drawGrowth(Commands& commands, const FrameRecord& frame, const PostPush& post) {
     commands.transition(targets_.color, ImageState::colorTarget, now_.ahead);
     commands.transition(targets_.depth, ImageState::depthTarget);
     DrawTargets targets = onto({targets_.width, targets_.height}, targets_.color.view());
@@ -226,8 +250,14 @@ void Renderer::drawGrowth(Commands& commands, const DrawInputs& inputs, const Fr
         if (isQuick(now_.shading)) part.emplace(commands, "draw patterns");
         pieces_->draw(pass, *now_.frame, now_.scene->piece, &shadow);
     }
-    if (now_.ahead) drawSurroundings(pass, inputs, post);
+    if (now_.graphed) {
+        std::optional<Pass> part;
+        if (isQuick(now_.shading)) part.emplace(commands, "draw graph");
+        graph_->draw(pass, *now_.frame, now_.scene->graph, &shadow);
+    }
+    if (now_.ahead) drawSurroundings(pass, post);
     if (!now_.hosted) drawSky(pass, frame, post);
+    if (now_.grows) drawFaint(pass);
     if (now_.glass) {
         std::optional<Pass> part;
         if (isQuick(now_.shading)) part.emplace(commands, "draw glass");
@@ -305,6 +335,7 @@ void Renderer::begin(const DrawInputs& inputs, PassFormat pass) {
     now_.grows = inputs.growth.nodeCount > 0 && inputs.surfaces.v != nullptr;
     now_.roofed = roofs_ && inputs.roofs && inputs.roofs->gridCount > 0;
     now_.patterned = pieces_ && !pieces_->empty() && inputs.look.pieces;
+    now_.graphed = graph_ && !graph_->empty();
     now_.walkData = inputs.surfaces.v != nullptr;
     now_.onGround = inputs.look.view == ViewMode::charts || inputs.look.view == ViewMode::layer;
 }
@@ -316,6 +347,7 @@ Status Renderer::drawFrame(Commands& commands, const DrawInputs& inputs, const D
     if (Status s = targets_.resize(device_, target.width, target.height); !s) return s;
     now_.hosted = target.image && target.host.depth;
     now_.furnished = props_ && !props_->empty() && !now_.hosted;
+    now_.ground = now_.hosted ? GroundKind::none : inputs.ground.kind;
     if (Status s = pickDepths(shadowPass()); !s) return s;
     if (Status s = pickScene(shownView(inputs), inputs.look.quick); !s) return s;
     if (now_.hosted && !merge_) {
@@ -326,7 +358,8 @@ Status Renderer::drawFrame(Commands& commands, const DrawInputs& inputs, const D
 
     FrameRecord frame = makeFrame(inputs, target.width, target.height);
     if (Status s = keepShadows(commands, inputs, frame); !s) return s;
-    now_.meadowLevel = inputs.ground.overgrows ? frame.groundLevel : kNoGround;
+    if (now_.ground == GroundKind::studio) aimStudio(inputs, frame);
+    now_.meadowLevel = now_.ground == GroundKind::meadow && inputs.ground.overgrows ? frame.groundLevel : kNoGround;
     now_.unit = frame.unit;
     ground_.describe(frame);
     if (Status s = upload(commands, frame); !s) return s;
@@ -336,7 +369,6 @@ Status Renderer::drawFrame(Commands& commands, const DrawInputs& inputs, const D
         if (Status s = pieces_->choose(commands, frame, inputs.look.lodPixels); !s) return s;
     PostPush push{};
     push.rcpSize = {1.0f / float(target.width), 1.0f / float(target.height)};
-    push.ground = inputs.ground.drawn && !now_.hosted ? 1 : 0;
     // Some devices do a pass' work when the next one needs it: only the whole is a true time.
     Pass whole(commands, "draw");
     // While all moves, and where that begins or ends, nobody sees one mesh replace another: two at a time would cost
@@ -348,7 +380,7 @@ Status Renderer::drawFrame(Commands& commands, const DrawInputs& inputs, const D
         if (Status s = cullGrowth(commands, inputs, frame); !s) return s;
     if (now_.grows)
         if (Status s = lightTerminals(commands); !s) return s;
-    drawGrowth(commands, inputs, frame, push);
+    drawGrowth(commands, frame, push);
     commands.transition(targets_.color, ImageState::sampled);
     drawOcclusion(commands, push);
     return resolve(commands, target, push);

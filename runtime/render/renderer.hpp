@@ -14,6 +14,7 @@
 #include "runtime/render/models.hpp"
 #include "runtime/render/shadow_state.hpp"
 #include "runtime/render/targets.hpp"
+#include "shaders/shared/random.h"
 
 namespace espalier {
 
@@ -33,12 +34,22 @@ class Renderer {
         unprepare();
         return models_.set(device_, index, data, toWorld, groundOnly);
     }
+    // Of a plan whose upload has been submitted.
+    void setSurface(uint32_t index, Models::Plan plan, Upload& upload) {
+        unprepare();
+        models_.set(index, std::move(plan), upload);
+    }
     void removeSurface(uint32_t index) {
         unprepare();
         models_.remove(index);
     }
     // Draws a surface that was set elsewhere.
     void placeSurface(uint32_t index, const glm::mat4& toWorld) { models_.place(index, toWorld); }
+
+    void hideSurface(uint32_t index, bool hidden) {
+        unprepare();
+        models_.hide(index, hidden);
+    }
 
     // Meshes that roofs are drawn with, kind 0 being none; returns their bounds. Once, before the first roofs.
     Result<std::vector<RoofMesh>> loadRoofMeshes(TerminalData meshes);
@@ -50,6 +61,9 @@ class Renderer {
     Status loadPieces(TerminalData meshes);
     // Pieces of patterns, in place of all that stood.
     Status placePieces(std::vector<PatternPiece> pieces);
+    // Geometry of procedural graphs, in place of all that stood, with a box around each part.
+    Status placeGraph(Geometry parts, std::span<const NodeBox> boxes);
+    const GraphDraw* graph() const { return graph_.get(); }  // null: there never was any
     // What lies on the ground that is drawn; without texels: nothing.
     Status setSite(const SiteMap& map) { return ground_.setSite(device_, map); }
 
@@ -78,6 +92,8 @@ class Renderer {
     // Counts of the last frame that has finished.
     RenderStats stats() const;
 
+    // Other meshes for stems and leaves. Growth is bound anew. Waits. On failure the old ones stay.
+    Status setTerminals(TerminalData data);
     // What stems and leaves are drawn with.
     const Terminals& terminals() const { return terminals_; }
     // What patterns are drawn with, and where; null: there are none.
@@ -89,23 +105,26 @@ class Renderer {
   private:
     explicit Renderer(Device& device) : device_(device) {}
     Status setUp(TerminalData data);
+    void noteSmall();
     Status makePrograms();
     // What a recording is about, so far as it doesn't depend on where it goes.
     void begin(const DrawInputs& inputs, PassFormat pass);
     Status drawFrame(Commands& commands, const DrawInputs& inputs, const DrawTarget& target);
     // The programs that draw what is lit: one set for each kind of shading, one for the view that counts fragments.
     struct ScenePrograms {
-        Program model, modelFoot, modelMapped, modelMappedFoot, tint, glass, bark, barkSmall, leaf, leafSmall;
+        Program model, modelFoot, modelMapped, modelMappedFoot, tint, glass, bark, barkSmall, barkFaint, leaf,
+            leafSmall;
         struct Lit {
             Program light, draw;
         };
+        bool litMade = false;
         Lit litBark, litLeaves[2];  // of quick ones (lit.glsl): leaves of three vertices, and of four, if there are any
         RoofPrograms roof;
-        Program piece;
+        Program piece, graph, studio;
     };
     // Those that draw depths only.
     struct DepthPrograms {
-        Program model, modelCut, bark, leaf, leafCut, piece;
+        Program model, modelCut, bark, leaf, leafCut, piece, graph;
         RoofPrograms roof;
     };
     Status makeScene(ScenePrograms& programs, Shading shading) const;
@@ -118,6 +137,8 @@ class Renderer {
     Result<const Program*> resolveProgram(VkFormat format);
     // Uploads the record to now_.frame.
     Status upload(Commands& commands, const FrameRecord& frame);
+    // Tells the frame where a studio's floor lies.
+    void aimStudio(const DrawInputs& inputs, FrameRecord& frame) const;
     // renderer_shadows.cpp: redraws shadows that aren't up to date, and tells the frame where they are.
     Status keepShadows(Commands& commands, const DrawInputs& inputs, FrameRecord& frame);
     ShadowScene shadowScene(const DrawInputs& inputs, glm::vec3 sun, glm::vec4 sphere) const;
@@ -132,18 +153,19 @@ class Renderer {
     Status aimWideShadows(Commands& commands, const DrawInputs& inputs, const SunView& near, glm::vec3 center,
                           float radius, FrameRecord& frame);
     Models::Drawn modelsDrawn() const;
-    void drawSurroundings(DrawPass& pass, const DrawInputs& inputs, const PostPush& post);
+    void drawSurroundings(DrawPass& pass, const PostPush& post);
     Status drawModels(Commands& commands, const DrawInputs& inputs, const DrawTarget& target, const PostPush& post);
     // A number for the models and props of this recording.
     uint64_t standing() const {
         return models_.revision() + (now_.furnished ? propsRevision_ << 32 : 0) +
-               (now_.patterned ? pieces_->revision() << 48 : 0);
+               (now_.patterned ? pieces_->revision() << 48 : 0) +
+               (now_.graphed ? combineKeys(graph_->revision(), 1) : 0);
     }
     EmitInputs emitInputs(const DrawInputs& inputs) const;
     uint64_t sceneOf(const DrawInputs& inputs);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame);
     Status cullGrowth(Commands& commands, const DrawInputs& inputs, EmitView view);
-    void drawGrowth(Commands& commands, const DrawInputs& inputs, const FrameRecord& frame, const PostPush& post);
+    void drawGrowth(Commands& commands, const FrameRecord& frame, const PostPush& post);
     void drawSky(DrawPass& pass, const FrameRecord& frame, const PostPush& post);
     Status lightTerminals(Commands& commands);
     // Whether what the bucket draws has few enough vertices, and pixels, to be lit ahead; whether it has been.
@@ -152,6 +174,11 @@ class Renderer {
     ScenePrograms::Lit& litPrograms(ScenePrograms& programs, uint32_t bucket) const;
     Status makeLit(ScenePrograms& programs) const;
     void drawTerminals(DrawPass& pass, bool depthOnly);
+    // Ribbons that are thinner than a pixel cover a share of it: with one sample a pixel they are laid over all else.
+    bool faintLast(uint32_t bucket) const {
+        return now_.faint && small_[bucket] && bucket < terminals_.table().barkBuckets;
+    }
+    void drawFaint(DrawPass& pass) const;
     void drawOcclusion(Commands& commands, const PostPush& push);
     Status resolve(Commands& commands, const DrawTarget& target, PostPush push);
 
@@ -161,6 +188,7 @@ class Renderer {
     std::unique_ptr<RoofDraw> roofs_;
     std::unique_ptr<Props> props_;
     std::unique_ptr<PieceDraw> pieces_;
+    std::unique_ptr<GraphDraw> graph_;
     std::unique_ptr<HostMerge> merge_;  // made when a host first has a scene
     Models models_;
     Ground ground_;
@@ -186,13 +214,16 @@ class Renderer {
     // What the recording that goes on, or the last one, is about: none of it outlives the next one's beginning.
     struct {
         bool grows = false, roofed = false, furnished = false, patterned = false;  // growth, roofs, props, patterns
+        bool graphed = false;                                                      // geometry of procedural graphs
         bool hosted = false;                                                       // into a host's scene
-        PassFormat pass;                                                           // that it draws in
+        GroundKind ground = GroundKind::none;
+        PassFormat pass;  // that it draws in
         Shading shading = Shading::full;
         ScenePrograms* scene = nullptr;
         const DepthPrograms* depths = nullptr;
         bool plain = false;                        // growth and props are drawn as in the shaded view
         bool lit = false;                          // what has few vertices has been lit ahead
+        bool faint = false;                        // ribbons are drawn last
         bool ahead = false;                        // models' depths went ahead, they are shaded after growth
         bool glass = false;                        // what is blended is drawn last
         float meadowLevel = 0, unit = 1;           // where grass grows over models

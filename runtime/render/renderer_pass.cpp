@@ -22,6 +22,7 @@ Status Renderer::prepare(Commands& commands, const DrawInputs& inputs, const Pas
         if (Status s = keepShadows(commands, seen, frame); !s) return s;
     } else {
         if (Status s = pickDepths(now_.pass); !s) return s;
+        anchorLook(frame, inputs.origin);
     }
     now_.meadowLevel = frame.groundLevel;
     now_.unit = frame.unit;
@@ -51,6 +52,8 @@ void Renderer::record(Commands& inside) {
         roofs_->draw(pass, *now_.frame, shaded ? now_.scene->roof : now_.depths->roof, shaded ? &shadow : nullptr);
     if (now_.patterned)
         pieces_->draw(pass, *now_.frame, shaded ? now_.scene->piece : now_.depths->piece, shaded ? &shadow : nullptr);
+    if (now_.graphed)
+        graph_->draw(pass, *now_.frame, shaded ? now_.scene->graph : now_.depths->graph, shaded ? &shadow : nullptr);
     if (!now_.modelsToo) return;
     if (shaded)
         models_.draw(pass, modelsDrawn());

@@ -73,8 +73,10 @@ Status Renderer::pickDepths(const PassFormat& pass) {
     }
     if (now_.roofed)
         if (Status made = programs.roof.make(device_, pass, Shading::full); !made) return made;
-    if (!now_.patterned || programs.piece) return Done{};
-    return assign(programs.piece, PieceDraw::program(device_, pass, Shading::full));
+    if (now_.patterned && !programs.piece)
+        if (Status made = assign(programs.piece, PieceDraw::program(device_, pass, Shading::full)); !made) return made;
+    if (!now_.graphed || programs.graph) return Done{};
+    return assign(programs.graph, GraphDraw::program(device_, pass, Shading::full));
 }
 
 Status Renderer::makeSceneProgram(Program& program, const char* name, const char* vertex, const char* fragment,
@@ -88,9 +90,11 @@ Status Renderer::makeSceneProgram(Program& program, const char* name, const char
 }
 
 Status Renderer::makeScene(ScenePrograms& programs, Shading shading) const {
-    if (programs.model) return Done{};
-    if (isQuick(shading))
+    if (isQuick(shading) && !programs.litMade) {
         if (Status lit = makeLit(programs); !lit) return lit;
+        programs.litMade = true;
+    }
+    if (programs.model) return Done{};
     const bool one = now_.pass.samples == 1;
     const struct {
         Program& program;
@@ -128,10 +132,23 @@ Status Renderer::makeRareScene(ScenePrograms& programs, Shading shading) const {
         if (Status s = make(programs.modelMapped, "mapped model", "render/model_mapped.frag", false, blend); !s)
             return s;
     }
+    if (now_.faint && !programs.barkFaint) {
+        Status made =
+            makeSceneProgram(programs.barkFaint, "faint bark", "render/bark_small.vert", "render/bark_small_faint.frag",
+                             constantsOf(shading, holdsRoots(device_)), Blend::over);
+        if (!made) return made;
+    }
     if (now_.roofed)
         if (Status s = programs.roof.make(device_, now_.pass, shading); !s) return s;
     if (now_.patterned && !programs.piece)
         if (Status s = assign(programs.piece, PieceDraw::program(device_, now_.pass, shading)); !s) return s;
+    if (now_.graphed && !programs.graph)
+        if (Status s = assign(programs.graph, GraphDraw::program(device_, now_.pass, shading)); !s) return s;
+    if (now_.ground == GroundKind::studio && !programs.studio) {
+        Status made = makeSceneProgram(programs.studio, "studio floor", "render/ground.vert", "render/studio.frag",
+                                       constantsOf(shading), blendOf(shading));
+        if (!made) return made;
+    }
     if (!now_.glass) return Done{};
     if (Status s = make(programs.tint, "glass tint", "render/model_tint.frag", false, Blend::multiply); !s) return s;
     return make(programs.glass, "glass", "render/model_glass.frag", false, Blend::over);
@@ -149,6 +166,7 @@ Status Renderer::pickScene(ViewMode shown, bool quick) {
     now_.scene = &scenes_[{now_.pass, now_.shading}];
     if (Status made = makeScene(*now_.scene, now_.shading); !made) return made;
     now_.glass = !explained && !now_.hosted && models_.anyGlass();
+    now_.faint = now_.grows && now_.pass.samples == 1 && !now_.hosted && now_.shading == Shading::full;
     return makeRareScene(*now_.scene, now_.shading);
 }
 
@@ -165,10 +183,10 @@ Result<const Program*> Renderer::resolveProgram(VkFormat format) {
     return &(resolves_[kind] = std::move(*made));
 }
 
-Status Renderer::setUp(TerminalData data) {
-    targets_.samples = device_.info().traits.samples;
-    if (Status made = assign(terminals_, Terminals::create(device_, std::move(data))); !made) return made.failure();
+// Which meshes are for few pixels.
+void Renderer::noteSmall() {
     const TerminalTable& table = terminals_.table();
+    small_.fill(false);
     for (uint32_t v = 0; v < table.variants.size(); ++v) {
         const VariantRecord& variant = table.variants[v];
         const uint32_t last = variant.firstBucket + variant.lodCount - 1;
@@ -179,6 +197,27 @@ Status Renderer::setUp(TerminalData data) {
             for (uint32_t b = variant.firstBucket; b <= last; ++b)
                 small_[b] = b == last || table.buckets[b].indexCount <= kSmallIndices;
     }
+}
+
+// Emission refers to terminals_, whose place in memory stays.
+Status Renderer::setTerminals(TerminalData data) {
+    Result<Terminals> terminals = Terminals::create(device_, std::move(data));
+    if (!terminals) return terminals.failure();
+    Result<Emit> emit = Emit::create(device_, terminals_);
+    if (!emit) return emit.failure();
+    unprepare();
+    terminals_ = std::move(*terminals);
+    emit_ = std::move(*emit);
+    noteSmall();
+    for (auto& [kind, programs] : scenes_) programs.litMade = false;
+    near_.clear();
+    return Done{};
+}
+
+Status Renderer::setUp(TerminalData data) {
+    targets_.samples = device_.info().traits.samples;
+    if (Status made = assign(terminals_, Terminals::create(device_, std::move(data))); !made) return made.failure();
+    noteSmall();
     if (Status made = assign(emit_, Emit::create(device_, terminals_)); !made) return made.failure();
     if (Status made = assign(models_, Models::create(device_)); !made) return made.failure();
     if (Status made = assign(ground_, Ground::create(device_, kSceneFormat, kDepthFormat, targets_.samples)); !made)

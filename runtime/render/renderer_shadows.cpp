@@ -16,6 +16,7 @@ constexpr uint32_t kShadowRows = kShadowSize / kShadowTile;  // of tiles
 constexpr float kFineRadius = 24;                            // metres: a texel is 2.3 cm then
 constexpr uint32_t kStrokeTiles = 8;                         // so many are redrawn at once while a stroke goes on
 constexpr float kWideBias = 0.12f;  // metres that what lies far away is moved towards the sun when it is compared
+constexpr float kReachSteps = 8;    // until the map reaches twice as far: nobody sees its texels grow by so little
 constexpr float kShadowModelTexels = 0.5f;  // error of models' casters: less than what lookups are moved by
 
 // Bark and leaves as the near map has them.
@@ -53,6 +54,7 @@ void Renderer::drawStanding(DrawPass& pass, const SunView& sun, float error) {
     if (now_.roofed) roofs_->draw(pass, *now_.frame, now_.depths->roof, nullptr);
     if (now_.furnished) props_->drawDepth(pass, *now_.frame);
     if (now_.patterned) pieces_->drawCasters(pass, *now_.frame, now_.depths->piece);
+    if (now_.graphed) graph_->draw(pass, *now_.frame, now_.depths->graph, nullptr);
 }
 
 Status Renderer::drawShadows(Commands& commands, const DrawInputs& inputs, const SunView& sun) {
@@ -168,18 +170,23 @@ Status Renderer::keepShadows(Commands& commands, const DrawInputs& inputs, Frame
         low = models_.empty() ? inputs.roofs->low : glm::min(low, inputs.roofs->low);
         high = models_.empty() ? inputs.roofs->high : glm::max(high, inputs.roofs->high);
     }
+    if (now_.graphed) {
+        if (models_.empty() && !now_.roofed) low = glm::vec3(1e30f), high = -low;
+        graph_->bounds(low, high);
+    }
     float radius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.06f;
     glm::vec3 center = (low + high) * 0.5f;
     // A town, or a wide scene, is larger than a map of shadows can resolve: it covers what is looked at.
     if (now_.roofed || radius > kFineRadius) {
-        const float reach =
-            std::exp2(std::ceil(std::log2(1.6f * glm::length(inputs.camera.target - inputs.camera.eye))));
+        const float wanted = 1.6f * glm::length(inputs.camera.target - inputs.camera.eye);
+        const float reach = std::exp2(std::ceil(kReachSteps * std::log2(wanted)) / kReachSteps);
         if (reach < radius) {
             radius = std::max(reach, 8.0f);
             center = glm::round(inputs.camera.target / (0.125f * radius)) * (0.125f * radius);
         }
     }
     frame.unit = now_.roofed ? 1.0f : models_.lengthUnit();
+    anchorLook(frame, inputs.origin);
     if (now_.furnished) props_->bounds(low, high);
     const glm::vec3 wideCenter = (low + high) * 0.5f;
     const float wideRadius = std::max(glm::length(high - low) * 0.5f, 1e-3f) * 1.02f;

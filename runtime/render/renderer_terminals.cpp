@@ -97,6 +97,7 @@ void Renderer::drawTerminals(DrawPass& pass, bool depthOnly) {
         const uint32_t b = (i + table.barkBuckets) % count;  // leaves first: much bark lies under them
         if (known && known->counts[b] == 0) continue;
         const bool bark = b < table.barkBuckets;
+        if (!depthOnly && faintLast(b)) continue;
         // A software device begins with what comes before a time stamp, in all threads, while one sets up the rest.
         std::optional<Pass> part;
         if (known && !depthOnly) part.emplace(pass.commands(), bark ? "draw bark" : "draw leaves");
@@ -130,6 +131,26 @@ void Renderer::drawTerminals(DrawPass& pass, bool depthOnly) {
         else
             pass.drawIndexedIndirect(now_.depths->leaf, emit_.state(), offset, 2, push,
                                      {*now_.frame, emit_.state(), instances, meshes, drawn});
+    }
+}
+
+void Renderer::drawFaint(DrawPass& pass) const {
+    if (!now_.faint) return;
+    const EmitState* known = emit_.knownState();
+    pass.setIndices(terminals_.batches());
+    for (uint32_t b = 0; b < terminals_.table().barkBuckets; ++b) {
+        if (!faintLast(b) || (known && known->counts[b] == 0)) continue;
+        const TerminalPush push = pushOf(terminals_, b);
+        const Binding color{terminals_.baseColor(terminals_.table().buckets[b].material), textureSampler_};
+        pass.drawIndexedIndirect(now_.scene->barkFaint, emit_.state(),
+                                 offsetof(EmitState, draws) + 2ull * b * sizeof(DrawCommand), 2, push,
+                                 {color,
+                                  {shadowMap_, shadowSampler_},
+                                  *now_.frame,
+                                  emit_.state(),
+                                  Binding(emit_.spanTexels()),
+                                  terminals_.vertexTexels(),
+                                  emit_.drawnTexels()});
     }
 }
 

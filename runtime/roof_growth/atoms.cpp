@@ -343,12 +343,15 @@ RoofTables makeAtoms(const RoofStructure& structure, const AtomOptions& options)
 }
 
 void replaceAtoms(RoofTables& tables, uint32_t index, const RoofStructure& structure, const AtomOptions& options) {
+    const bool hidden = tables.houses[index].hidden;
     tables.houses[index] = HouseAtoms(tables, structure, 0, index, options).run();
+    tables.houses[index].hidden = hidden;
     tables.plots[index] = plotOf(structure.houses[0]);
 }
 
 void appendStarts(const RoofTables& tables, uint32_t house, std::vector<uint32_t>& atoms) {
     const RoofTables::House& range = tables.houses[house];
+    if (range.hidden) return;
     for (uint32_t i = range.firstAtom; i < range.firstAtom + range.atomCount; ++i)
         if (tables.atoms[i].tier == 0 && tables.atoms[i].eaveLength > 0) atoms.push_back(i);
 }

@@ -22,6 +22,8 @@ struct RoofTables {
     std::vector<vec4> planes;
     struct House {
         uint32_t firstAtom = 0, atomCount = 0;
+        bool hidden = false;  // nothing grows from its atoms
+        bool operator==(const House&) const = default;
     };
     std::vector<House> houses;
     std::vector<RoofPlot> plots;  // [house]; generations count for nothing here
@@ -31,9 +33,10 @@ struct RoofTables {
 RoofTables makeAtoms(const RoofStructure& structure, const AtomOptions& options = {});
 
 // Replaces house `index` by the only one of `structure`: its atoms are added at the end, the old ones are left unused.
+// A house that is hidden stays hidden.
 void replaceAtoms(RoofTables& tables, uint32_t index, const RoofStructure& structure, const AtomOptions& options = {});
 
-// The atoms of the house that expansion begins with, see startShape(): those of tier 0.
+// The atoms of the house that expansion begins with, see startShape(): those of tier 0; none of a house that is hidden.
 void appendStarts(const RoofTables& tables, uint32_t house, std::vector<uint32_t>& atoms);
 
 // Triangulates nothing: cuts a simple polygon with counterclockwise edges into convex parts between upright lines. Edge

@@ -10,7 +10,7 @@ HouseTables::HouseTables(const RoofTables& town, std::span<const uint32_t> which
     for (uint32_t house : houses) {
         const RoofTables::House& range = town.houses[house];
         const uint32_t first = uint32_t(tables.atoms.size());
-        tables.houses.push_back({first, range.atomCount});
+        tables.houses.push_back({first, range.atomCount, range.hidden});
         tables.plots.push_back(town.plots[house]);
         for (uint32_t i = 0; i < range.atomCount; ++i) {
             atoms.push_back(range.firstAtom + i);

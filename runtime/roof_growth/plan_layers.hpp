@@ -25,6 +25,9 @@ struct PlanRect {
     uint32_t x0 = ~0u, y0 = ~0u, x1 = 0, y1 = 0;
     bool empty() const { return x0 >= x1 || y0 >= y1; }
     void add(const PlanRect& r);
+    PlanRect within(const PlanRect& r) const {
+        return {std::max(x0, r.x0), std::max(y0, r.y0), std::min(x1, r.x1), std::min(y1, r.y1)};
+    }
     bool meets(const PlanRect& r) const { return x0 < r.x1 && r.x0 < x1 && y0 < r.y1 && r.y0 < y1; }
 };
 

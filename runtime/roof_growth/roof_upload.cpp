@@ -59,10 +59,7 @@ void RoofGrowth::noticeTown(const RoofInputs& inputs) {
     const RoofTables& t = *inputs.town;
     const bool other = inputs.townRevision == 0 || inputs.townRevision != town_;
     if (other) forgetTables();
-    auto same = [](const RoofTables::House& a, const RoofTables::House& b) {
-        return a.firstAtom == b.firstAtom && a.atomCount == b.atomCount;
-    };
-    if (!other && std::ranges::equal(t.houses, ranges_, same)) return;
+    if (!other && t.houses == ranges_) return;
     ranges_.clear();  // until all is worked out
     townStarts_.clear();
     startsSent_ = false;

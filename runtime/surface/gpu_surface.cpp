@@ -103,42 +103,51 @@ Status writeTiles(Commands& commands, const Buffer& data, const SurfaceLevel& pl
 
 }  // namespace
 
-Result<GpuSurface> GpuSurface::create(Device& device, const SurfaceData& data) {
-    GpuSurface out;
-    out.hash_ = data.hash;
-    out.ref_ = surfaceRef(data);
+GpuSurface::Plan GpuSurface::plan(const SurfaceData& data, Upload& upload) {
+    Plan plan;
+    plan.hash = data.hash;
+    plan.ref = surfaceRef(data);
     std::vector<std::byte> bytes;
-    std::vector<std::pair<uint64_t, void*>> places;  // offset of an array, and the address to be set
-    auto add = [&](const auto& values, auto& address) {
+    const auto add = [&](const auto& values, auto& address) {
         static_assert(sizeof(address) == 8);
         setAddress(address, 0);
         if (values.empty()) return;
         bytes.resize((bytes.size() + kAlignment - 1) / kAlignment * kAlignment);
-        places.emplace_back(bytes.size(), &address);
+        const auto* field = reinterpret_cast<const std::byte*>(&address);
+        plan.arrays.push_back({size_t(field - reinterpret_cast<const std::byte*>(&plan.ref)), bytes.size()});
         const auto view = std::as_bytes(std::span(values));
         bytes.insert(bytes.end(), view.begin(), view.end());
     };
     bytes.reserve(sizeOf(data));
     for (size_t i = 0; i < data.levels.size(); ++i) {
         const SurfaceLevelData& level = data.levels[i];
-        add(level.texels, out.ref_.levels[i].texels);
-        add(level.aux, out.ref_.levels[i].aux);
-        add(level.crossingHead, out.ref_.levels[i].crossingHead);
-        add(level.crossingRefs, out.ref_.levels[i].crossingRefs);
-        out.refCounts_.push_back(uint32_t(level.crossingRefs.size()));
+        add(level.texels, plan.ref.levels[i].texels);
+        add(level.aux, plan.ref.levels[i].aux);
+        add(level.crossingHead, plan.ref.levels[i].crossingHead);
+        add(level.crossingRefs, plan.ref.levels[i].crossingRefs);
+        plan.refCounts.push_back(uint32_t(level.crossingRefs.size()));
     }
-    add(data.crossings, out.ref_.crossings);
-    add(data.charts, out.ref_.charts);
-    add(data.triangles, out.ref_.triangles);
+    add(data.crossings, plan.ref.crossings);
+    add(data.charts, plan.ref.charts);
+    add(data.triangles, plan.ref.triangles);
     bytes.resize((bytes.size() + kAlignment - 1) / kAlignment * kAlignment);
-    Result<Buffer> buffer = makeBuffer(device, "surface", std::span<const std::byte>(bytes));
-    if (!buffer) return std::move(buffer.failure());
-    out.data_ = std::move(*buffer);
-    for (auto [offset, address] : places) {
-        const uint64_t at = out.data_.address() + offset;
-        std::memcpy(address, &at, 8);
+    plan.buffer = upload.addBuffer("surface", std::move(bytes));
+    return plan;
+}
+
+GpuSurface::GpuSurface(const Plan& plan, Upload& upload)
+    : ref_(plan.ref), hash_(plan.hash), data_(upload.takeBuffer(plan.buffer)), refCounts_(plan.refCounts) {
+    for (const Plan::Array& array : plan.arrays) {
+        const uint64_t at = data_.address() + array.offset;
+        std::memcpy(reinterpret_cast<std::byte*>(&ref_) + array.address, &at, 8);
     }
-    return out;
+}
+
+Result<GpuSurface> GpuSurface::create(Device& device, const SurfaceData& data) {
+    Upload upload;
+    const Plan planned = plan(data, upload);
+    if (Status done = upload.run(device); !done) return done.failure();
+    return GpuSurface(planned, upload);
 }
 
 SurfaceRef GpuSurface::ref(const glm::mat4& toWorld) const {

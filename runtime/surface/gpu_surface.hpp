@@ -2,7 +2,7 @@
 
 // A baked surface on the GPU: what a walk reads. The mesh to draw and its pictures belong to render.
 
-#include "runtime/gpu/buffer.hpp"
+#include "runtime/gpu/upload.hpp"
 #include "runtime/surface/added_crossings.hpp"
 #include "runtime/surface/surface.hpp"
 
@@ -12,9 +12,12 @@ class GpuSurface {
   public:
     GpuSurface() = default;
 
-    // Uploads levels, crossings, charts and triangles; ready when the call returns, `data` isn't needed after.
-    // Fails when memory has run out.
+    // Uploads levels, crossings, charts and triangles; `data` isn't needed after. Fails when memory has run out.
     static Result<GpuSurface> create(Device& device, const SurfaceData& data);
+    // The same in steps: what is to be uploaded, on any thread, and the surface once the upload has been submitted.
+    struct Plan;
+    static Plan plan(const SurfaceData& data, Upload& upload);
+    GpuSurface(const Plan& plan, Upload& upload);
 
     // The record for a table of surfaces: device addresses, valid while this lives, and the place in the world.
     // toWorld must move, turn and scale evenly.
@@ -46,6 +49,18 @@ class GpuSurface {
     std::vector<uint32_t> refCounts_;             // per level, as uploaded
     std::vector<std::vector<uint32_t>> patched_;  // per level: tiles that differ from what was uploaded
     SurfaceRef listed_{};                         // ref_ with the addresses in lists_
+};
+
+struct GpuSurface::Plan {
+    SurfaceRef ref{};
+    uint64_t hash = 0;
+    std::vector<uint32_t> refCounts;
+    size_t buffer = 0;  // of the upload
+    struct Array {
+        size_t address;   // byte of `ref`
+        uint64_t offset;  // in the buffer
+    };
+    std::vector<Array> arrays;
 };
 
 // The even scale of a placement, as growth reads it.

@@ -13,18 +13,21 @@ using nlohmann::ordered_json;
 
 constexpr const char *kTransform = "KHR_texture_transform", *kTransmission = "KHR_materials_transmission",
                      *kStrength = "KHR_materials_emissive_strength";
+constexpr int kWrapModes[kWraps] = {10497, 33071, 33648};  // glTF's, by Wrap
 constexpr float kBrightest = 1e6f;
 constexpr int kOtherUvSet = 2;  // TEXCOORD_2 is DrawVertex::otherUv, TEXCOORD_1 the walk's
 
 class MaterialWriter {
   public:
-    MaterialWriter(const Material& m, std::vector<std::string>& extensions) : m_(m), extensions_(extensions) {}
+    MaterialWriter(const Material& m, Textures& textures, std::vector<std::string>& extensions)
+        : m_(m), textures_(textures), extensions_(extensions) {}
 
     ordered_json run() {
         ordered_json pbr = {{"baseColorFactor", {m_.baseColor.r, m_.baseColor.g, m_.baseColor.b, m_.baseColor.a}},
-                            {"metallicFactor", 0},
+                            {"metallicFactor", m_.metallic},
                             {"roughnessFactor", m_.roughness}};
         if (m_.baseColorImage >= 0) pbr["baseColorTexture"] = texture(m_.baseColorImage, m_.baseColorMap);
+        if (m_.roughnessImage >= 0) pbr["metallicRoughnessTexture"] = texture(m_.roughnessImage, m_.roughnessMap);
         ordered_json material = {{"pbrMetallicRoughness", pbr}, {"doubleSided", m_.doubleSided}};
         if (m_.normalImage >= 0) {
             material["normalTexture"] = texture(m_.normalImage, m_.normalMap);
@@ -49,7 +52,7 @@ class MaterialWriter {
     }
 
     ordered_json texture(int image, const TextureMap& map) {
-        ordered_json info = {{"index", image}};
+        ordered_json info = {{"index", textures_.find(image, {m_.wrapU, m_.wrapV})}};
         if (map.set != 0) info["texCoord"] = kOtherUvSet;
         if (map == TextureMap{.set = map.set}) return info;
         extend(info, kTransform,
@@ -71,6 +74,7 @@ class MaterialWriter {
     }
 
     const Material& m_;
+    Textures& textures_;
     std::vector<std::string>& extensions_;
 };
 
@@ -87,8 +91,20 @@ float numberIn(const json& list, size_t index, float otherwise) {
 
 }  // namespace
 
-ordered_json materialJson(const Material& material, std::vector<std::string>& extensions) {
-    return MaterialWriter(material, extensions).run();
+size_t Textures::find(int image, Wraps wraps) {
+    const auto [sampler, first] = samplers_.try_emplace(wraps, samplers_.size());
+    if (first)
+        samplers.push_back({{"magFilter", 9729},
+                            {"minFilter", 9987},
+                            {"wrapS", kWrapModes[size_t(wraps.first)]},
+                            {"wrapT", kWrapModes[size_t(wraps.second)]}});
+    const auto [texture, added] = textures_.try_emplace({image, wraps}, textures_.size());
+    if (added) textures.push_back({{"source", image}, {"sampler", sampler->second}});
+    return texture->second;
+}
+
+ordered_json materialJson(const Material& material, Textures& textures, std::vector<std::string>& extensions) {
+    return MaterialWriter(material, textures, extensions).run();
 }
 
 Material materialOf(const json& object) {
@@ -102,6 +118,7 @@ Material materialOf(const json& object) {
             std::clamp(strength * numberIn(memberOf(object, "emissiveFactor"), k, 0), 0.0f, kBrightest);
     m.normalScale = number(memberOf(object, "normalTexture"), "scale", 1);
     m.roughness = std::clamp(number(pbr, "roughnessFactor", 1), 0.0f, 1.0f);
+    m.metallic = std::clamp(number(pbr, "metallicFactor", 0), 0.0f, 1.0f);
     m.transmission = std::clamp(number(memberOf(extensions, kTransmission), "transmissionFactor", 0), 0.0f, 1.0f);
     m.blended = memberOf(object, "alphaMode") == "BLEND" || m.transmission > 0;
     m.alphaCutoff = number(object, "alphaCutoff", 0);
@@ -118,6 +135,16 @@ TextureMap textureMapOf(const json& texture) {
     map.scale = {numberIn(memberOf(moved, "scale"), 0, 1), numberIn(memberOf(moved, "scale"), 1, 1)};
     map.rotation = number(moved, "rotation", 0);
     return map;
+}
+
+// What isn't said, or isn't known, repeats.
+Wraps wrapsOf(const json& sampler) {
+    const auto along = [&](const char* key) {
+        const float mode = number(sampler, key, 0);
+        const auto* found = std::ranges::find_if(kWrapModes, [&](int known) { return float(known) == mode; });
+        return found == std::end(kWrapModes) ? Wrap::repeat : Wrap(found - kWrapModes);
+    };
+    return {along("wrapS"), along("wrapT")};
 }
 
 }  // namespace espalier::surface_file

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "runtime/core/jobs.hpp"
 #include "runtime/surface/material_json.hpp"
@@ -13,8 +14,10 @@
 namespace espalier::surface_file {
 namespace {
 
-// The image of a texture, and by which UVs it is looked up.
-int imageOf(const Container& file, const SurfaceData& data, const json& material, const char* key, TextureMap& map) {
+// The image of a texture of the material `out`, and by which UVs it is looked up. The first one's sampler says how all
+// of the material's are wrapped.
+int imageOf(const Container& file, const SurfaceData& data, const json& material, const char* key, Material& out,
+            TextureMap& map) {
     if (!material.is_object() || !material.contains(key)) return -1;
     map = textureMapOf(material[key]);
     uint64_t texture = whole(material[key], "index", key, 1 << 20);
@@ -22,6 +25,12 @@ int imageOf(const Container& file, const SurfaceData& data, const json& material
     if (texture >= textures.size()) fail(key, "texture " + std::to_string(texture) + " does not exist");
     uint64_t image = whole(textures[texture], "source", indexed("textures", texture), 1 << 20);
     if (image >= data.images.size()) fail(indexed("textures", texture), "its image does not exist");
+    if (!isTextured(out) && textures[texture].contains("sampler")) {
+        const json& samplers = array(file.root(), "samplers", "glTF", 1 << 20);
+        const uint64_t sampler = whole(textures[texture], "sampler", indexed("textures", texture), 1 << 20);
+        if (sampler >= samplers.size()) fail(indexed("textures", texture), "its sampler does not exist");
+        std::tie(out.wrapU, out.wrapV) = wrapsOf(samplers[sampler]);
+    }
     return int(image);
 }
 
@@ -57,9 +66,10 @@ void readMaterials(Container& file, SurfaceData& data) {
             Material out = materialOf(m);
             const json none = json::object();
             const json& pbr = m.is_object() && m.contains("pbrMetallicRoughness") ? m["pbrMetallicRoughness"] : none;
-            out.baseColorImage = imageOf(file, data, pbr, "baseColorTexture", out.baseColorMap);
-            out.normalImage = imageOf(file, data, m, "normalTexture", out.normalMap);
-            out.emissiveImage = imageOf(file, data, m, "emissiveTexture", out.emissiveMap);
+            out.baseColorImage = imageOf(file, data, pbr, "baseColorTexture", out, out.baseColorMap);
+            out.roughnessImage = imageOf(file, data, pbr, "metallicRoughnessTexture", out, out.roughnessMap);
+            out.normalImage = imageOf(file, data, m, "normalTexture", out, out.normalMap);
+            out.emissiveImage = imageOf(file, data, m, "emissiveTexture", out, out.emissiveMap);
             data.materials.push_back(out);
         }
     if (data.materials.empty()) data.materials.emplace_back();

@@ -39,14 +39,20 @@ struct TextureMap {
 // The map's rows: u = dot(rows[0], (u, v, 1)), v likewise.
 std::array<glm::vec3, 2> rowsOf(const TextureMap& map);
 
+// What is seen beyond the borders of a picture.
+enum class Wrap : uint32_t { repeat, clamp, mirror };
+constexpr uint32_t kWraps = 3;
+
 // A glTF material as far as it is drawn. An image index of -1: none.
 struct Material {
     glm::vec4 baseColor{1};   // linear
     int baseColorImage = -1;  // sRGB
     int normalImage = -1;     // tangent space, +Y up
     int emissiveImage = -1;   // sRGB
+    int roughnessImage = -1;  // linear; green times `roughness`, blue times `metallic`
     float normalScale = 1;
     float roughness = 1;
+    float metallic = 0;      // share of a metal: it mirrors by its colour and scatters nothing
     float alphaCutoff = 0;   // 0: opaque
     glm::vec3 emissive{0};   // linear, times its strength
     float transmission = 0;  // share of the light that passes straight through
@@ -54,13 +60,14 @@ struct Material {
     bool doubleSided = false;
     bool bare = false;      // nothing grows on it
     bool coloured = false;  // vertices that have it have colours of their own
-    TextureMap baseColorMap, normalMap, emissiveMap;
+    TextureMap baseColorMap, normalMap, emissiveMap, roughnessMap;
+    Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;  // of all its pictures
 };
 inline bool isTextured(const Material& m) {
-    return m.baseColorImage >= 0 || m.normalImage >= 0 || m.emissiveImage >= 0;
+    return m.baseColorImage >= 0 || m.normalImage >= 0 || m.emissiveImage >= 0 || m.roughnessImage >= 0;
 }
 inline bool usesOtherUv(const Material& m) {
-    return m.baseColorMap.set + m.normalMap.set + m.emissiveMap.set > 0;
+    return m.baseColorMap.set + m.normalMap.set + m.emissiveMap.set + m.roughnessMap.set > 0;
 }
 
 // A vertex's colour, linear; 65535 is 1.

@@ -266,11 +266,12 @@ class Writer {
     void writeMaterials() {
         ordered_json materials = ordered_json::array();
         std::vector<std::string> extensions;
-        for (const Material& m : data_.materials) materials.push_back(materialJson(m, extensions));
+        Textures textures;
+        for (const Material& m : data_.materials) materials.push_back(materialJson(m, textures, extensions));
         for (const std::string& name : extensions) root_["extensionsUsed"].push_back(name);
         if (!materials.empty()) root_["materials"] = std::move(materials);
-        if (data_.images.empty()) return;
-        root_["samplers"] = {{{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 10497}, {"wrapT", 10497}}};
+        if (!textures.textures.empty()) root_["samplers"] = std::move(textures.samplers);
+        if (!textures.textures.empty()) root_["textures"] = std::move(textures.textures);
         for (size_t i = 0; i < data_.images.size(); ++i) {
             const Picture& image = data_.images[i];
             std::vector<uint8_t> png;
@@ -288,7 +289,6 @@ class Writer {
             bool isPng = bytes->size() > 4 && (*bytes)[0] == 0x89 && (*bytes)[1] == 'P';
             int view = addView(bytes->data(), bytes->size());
             root_["images"].push_back({{"bufferView", view}, {"mimeType", isPng ? "image/png" : "image/jpeg"}});
-            root_["textures"].push_back({{"source", i}, {"sampler", 0}});
         }
     }
 

@@ -7,6 +7,7 @@
 #define ESPALIER_EMIT_RECORDS_H
 #include "shaders/shared/constants.h"
 #include "shaders/shared/growth_records.h"
+#include "shaders/shared/terminal_meshes.h"
 
 ESPALIER_BEGIN
 
@@ -19,6 +20,11 @@ CONST_UINT(kMaxVariants, 48u);
 CONST_UINT(kMaxLods, 6u);
 CONST_UINT(kMaxBuckets, 64u);
 CONST_UINT(kNoBucket, 0xFFu);
+// Leaves and blossoms hang and turn to the light; other kinds lie as they were put.
+FN bool hangs(uint kind) { return shippedMesh(kind) != kMeshPebble && shippedMesh(kind) < kMeshTuft; }
+// The pictures of leaves hold upper sides in their upper half, and the backs of these half the picture lower.
+FN bool showsBack(uint kind) { return shippedMesh(kind) != kMeshPebble && shippedMesh(kind) != kMeshTuft; }
+
 CONST_UINT(kStretches, 2u);    // EmitView::flags: spans that follow each other may be drawn as one
 CONST_UINT(kFullDetail, 1u);   // EmitView::flags: every instance at LOD 0, nothing is culled, thickened or thinned out
 CONST_UINT(kTilesStand, 4u);   // EmitView::flags: what tiles say stands already when the view is recorded

@@ -6,8 +6,6 @@
 
 ESPALIER_BEGIN
 
-CONST_UINT(kKindLeaf, 1u);   // hangs and turns to the light; other kinds lie as they were put
-
 struct PlacedLeaf {
     vec3 origin;
     vec3 axisX, axisY, axisZ;   // unit; the mesh's x, y (stalk to tip) and z (face)
@@ -43,7 +41,7 @@ FN PlacedLeaf placeLeaf(LoadedSpan s, LeafPose pose, uint hash, float extent) {
     PlacedLeaf leaf;
     leaf.size = pose.size;
     leaf.normal = n;
-    if (pose.mesh == kKindLeaf) {
+    if (hangs(pose.mesh)) {
         // Gravity draws the tip down along the surface; the face turns outward and to the sky. How much differs
         // from leaf to leaf, which is what makes a canopy glitter.
         vec3 up = vec3(0.0f, 1.0f, 0.0f);
@@ -65,7 +63,7 @@ FN PlacedLeaf placeLeaf(LoadedSpan s, LeafPose pose, uint hash, float extent) {
     leaf.axisX = x * rsqrtExact(x2);
     leaf.axisY = y;
     leaf.axisZ = cross3(leaf.axisX, leaf.axisY);
-    if (pose.mesh == kKindLeaf && dot3(leaf.axisZ, n) < 0.0f) {
+    if (hangs(pose.mesh) && dot3(leaf.axisZ, n) < 0.0f) {
         leaf.axisX = -leaf.axisX;
         leaf.axisZ = -leaf.axisZ;
     }

@@ -14,7 +14,7 @@ layout(location = 0) out vec4 color;
 
 void main() {
 #ifdef ESPALIER_ONE_SAMPLE
-    if (along.w < ditherAt(gl_FragCoord.xy)) discard;
+    if (along.w < ditherAt(gl_FragCoord.xy + frame.ditherFrom)) discard;
 #else
     gl_SampleMask[0] = coverage(along.w, hash >> 8u);
 #endif

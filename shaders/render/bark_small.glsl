@@ -1,4 +1,5 @@
-// Included once for four samples a pixel and once for one (ESPALIER_ONE_SAMPLE).
+// Included once for four samples a pixel, once for one (ESPALIER_ONE_SAMPLE), and once for one over all that has been
+// drawn, to be blended with it (ESPALIER_FAINT).
 // Bark of few pixels, its light brought along from the vertices.
 #include "shaders/render/light.glsl"
 
@@ -11,11 +12,14 @@ layout(location = 3) flat in uint hash;
 layout(location = 0) out vec4 color;
 
 void main() {
-#ifdef ESPALIER_ONE_SAMPLE
-    if (uvFade.z < ditherAt(gl_FragCoord.xy)) discard;
-#else
+#if defined(ESPALIER_ONE_SAMPLE)
+    if (uvFade.z < ditherAt(gl_FragCoord.xy + frame.ditherFrom)) discard;
+#elif !defined(ESPALIER_FAINT)
     gl_SampleMask[0] = coverage(uvFade.z, hash >> 8u);
 #endif
     vec3 texel = texelColor(texture(colorMap, uvFade.xy).rgb);
     color = sceneColor(texel * own + other, uvFade.w);
+#ifdef ESPALIER_FAINT
+    color = vec4(color.rgb * uvFade.z, uvFade.z);   // that share of the pixel
+#endif
 }

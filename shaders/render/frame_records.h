@@ -23,6 +23,11 @@ CONST_FLOAT(kNoGround, -1e30f);   // below everything
 
 CONST_FLOAT(kHighestHill, 0.075f);   // sine of its height over the horizon
 
+CONST_FLOAT(kTonesPerUnit, 2.3f);   // radians
+CONST_FLOAT(kGustTurns, 1.6f);      // radians of a gust in a metre
+// Factors of places in the phase by which gusts differ.
+#define ESPALIER_GUST_PHASE vec3(1.1f, 1.7f, 1.3f)
+
 // Colours are linear. Clip space: depth reversed, 1 at the near plane, 0 at infinity.
 struct FrameRecord {
     mat4 viewProjection;
@@ -58,8 +63,15 @@ struct FrameRecord {
     float windBend;          // how far leaves lean that way, in their length; of programs that know of wind
     vec3 windTurns;          // how far gusts, leaning and fluttering are in their turns, radians
     float windGusts;         // 0 to 1: how much of the wind comes in gusts
+    vec2 studioAt;           // x and z of the middle of a studio's floor; world, metres
+    float studioRadius;      // 0: the ground is none
+    float night;             // 1: so little light that eyes hardly tell colours apart; 0: enough
+    vec2 ditherFrom;         // pixels: pictures that lie fractions of a pixel apart leave out other pixels of thin twigs
+    vec2 shadowTap;          // the first of four places around one in the map of shadows, in 3/4 texels; the others lie a quarter turn on
+    vec3 tonesFrom;          // where the tones of leaves begin, in their turns; they and gusts stay where they are when the
+    float gustsFrom;         // world's origin moves; radians
 };
-STATIC_SIZE(FrameRecord, 416);
+STATIC_SIZE(FrameRecord, 464);
 
 struct ModelPush {
     vec4 toWorld[3];         // rows
@@ -75,15 +87,18 @@ struct ModelPush {
 };
 STATIC_SIZE(ModelPush, 116);
 
-// What few materials have: maps of their textures, as ModelPush has that of the base colour, and light of their own.
+// What few materials have: maps of their textures, as ModelPush has that of the base colour, light of their own, metal.
 struct MaterialRecord {
     vec3 normalU, normalV;
     vec3 emissiveU, emissiveV;
     vec3 emissive;
     uint normalOther, emissiveOther;
     float transmission;
+    vec3 roughnessU, roughnessV;
+    uint roughnessOther;
+    float metallic;
 };
-STATIC_SIZE(MaterialRecord, 72);
+STATIC_SIZE(MaterialRecord, 104);
 
 struct TerminalPush {
     uint bucket, firstVertex, vertexCount, batch;
@@ -106,8 +121,8 @@ CONST_UINT(kLitWords, 2u * kLitTexels);      // of 64 bits
 
 struct PostPush {
     vec2 rcpSize;            // 1 / pixels
-    uint ground;             // 1: ground is drawn, and hills at the horizon
     uint encode;             // 1: the target doesn't encode to sRGB itself
+    uint spare;
 };
 STATIC_SIZE(PostPush, 16);
 

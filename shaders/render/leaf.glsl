@@ -15,9 +15,9 @@ layout(location = 0) out vec4 color;
 
 void main() {
     // The atlas holds the upper sides in its upper half, their paler backs below.
-    bool leaf = (bits.z >> 8u) == 1u;
-    bool back = !gl_FrontFacing;
-    vec2 uv = uvOpen.xy + vec2(0.0, leaf && back ? 0.5 : 0.0);
+    uint kind = bits.z >> 8u;
+    bool back = shippedMesh(kind) != kMeshTuft && !gl_FrontFacing;
+    vec2 uv = uvOpen.xy + vec2(0.0, back && showsBack(kind) ? 0.5 : 0.0);
     vec4 texel = texture(colorMap, uv);
     texel.rgb = texelColor(texel.rgb);
     CUT_OUT(texel.a, push.alphaCutoff, bits.y >> 16u)
@@ -37,10 +37,10 @@ void main() {
         color = view == kViewNormals ? stored(face * 0.5 + 0.5, 0.0) : diagnostic(shown, face);
         return;
     }
-    vec3 base = leafColor(leafTint(push.baseColor.rgb, bits.x, bits.y, uvOpen.w), texel.rgb);
+    vec3 base = leafColor(leafTint(push.baseColor.rgb, bits.x, bits.y, uvOpen.w, kind), texel.rgb);
     float visible = sunVisibility(position, dot(face, frame.sunDirection) > 0.0 ? face : -face);
     vec3 eye = normalize(frame.eye - position);
-    LeafLight light = leafLight(face, eye, uvOpen.z, visible, leaf, back);
+    LeafLight light = leafLight(face, eye, uvOpen.z, visible, kind, back);
     color = lit(base * light.sun + light.sunMirror, base * light.sky + light.skyMirror);
     color.a *= kLeafShade;
 }

@@ -11,7 +11,7 @@ struct LeafTint {
 const vec3 kLeafWeights = vec3(0.3, 0.6, 0.1);
 
 // tint: Leaf::tint; hash: of the leaf; patchTone: -1 to 1, whole patches differ as plants do.
-LeafTint leafTint(vec3 baseColor, uint tint, uint hash, float patchTone) {
+LeafTint leafTint(vec3 baseColor, uint tint, uint hash, float patchTone, uint kind) {
     float age = float(tint >> 24u) * (1.0 / 255.0);
     vec3 root = vec3((tint >> 19u) & 31u, (tint >> 13u) & 63u, (tint >> 8u) & 31u) / vec3(31.0, 63.0, 31.0);
     vec3 wanted = root * root;
@@ -21,12 +21,19 @@ LeafTint leafTint(vec3 baseColor, uint tint, uint hash, float patchTone) {
     float strong = max(wanted.x, max(wanted.y, wanted.z)) - min(wanted.x, min(wanted.y, wanted.z));
     float turn = 0.5 * min(1.0, 3.0 * strong);
     // From old, dark and bluish to young, light and yellow.
-    const vec3 young = vec3(1.16, 1.08, 0.60);
-    const vec3 old = vec3(0.46, 0.57, 0.52);
-    vec3 grown = mix(old, young, clamp(0.08 + 0.46 * age + 0.8 * (a - 0.5) + 0.38 * patchTone, 0.0, 1.0)) * (0.68 + 0.64 * b);
+    const vec3 young = vec3(1.22, 1.14, 0.50);
+    const vec3 old = vec3(0.30, 0.42, 0.36);
+    vec3 grown = mix(old, young, clamp(0.04 + 0.88 * age * age + 0.30 * (a - 0.5) + 0.20 * patchTone, 0.0, 1.0)) * (0.72 + 0.56 * b);
+    // Now and then one withers.
+    float withered = step(0.985, float((hash >> 16u) & 255u) * (1.0 / 255.0)) * (1.0 - age);
+    grown = mix(grown, vec3(2.6, 1.5, 0.45), withered);
+    // What somebody chose keeps its hue, and is darker or lighter by age.
+    if (kind >= kOwnMeshes) grown = vec3(clamp(1.7 * dot(grown, kLeafWeights), 0.55, 1.25));
+    if (shippedMesh(kind) == kMeshBlossom) grown = vec3(0.85 + 0.3 * b);
     LeafTint o;
     o.own = baseColor * grown * (1.0 - turn);
-    o.turned = grown * turn * wanted / max(dot(wanted, kLeafWeights), 1e-3) * dot(baseColor, kLeafWeights);
+    // Age makes a grammar's colour darker or lighter, and leaves its hue.
+    o.turned = dot(grown, kLeafWeights) * turn * wanted / max(dot(wanted, kLeafWeights), 1e-3) * dot(baseColor, kLeafWeights);
     return o;
 }
 vec3 leafColor(LeafTint tint, vec3 texel) { return texel * tint.own + dot(texel, kLeafWeights) * tint.turned; }
@@ -41,7 +48,8 @@ struct LeafLight {
 };
 
 // face: the normal of the side that is seen; eye: towards it; open: share of the sky that is seen; visible: of the sun.
-LeafLight leafLight(vec3 face, vec3 eye, float open, float visible, bool leaf, bool back) {
+LeafLight leafLight(vec3 face, vec3 eye, float open, float visible, uint kind, bool back) {
+    bool leaf = shippedMesh(kind) != kMeshPebble;
     vec3 sun = frame.sunDirection;
     float side = dot(face, sun);
     float facing = max(side, 0.0);
@@ -51,13 +59,13 @@ LeafLight leafLight(vec3 face, vec3 eye, float open, float visible, bool leaf, b
     o.sunMirror = vec3(0.0);
     o.sky = skyLight(face);
     if (leaf) {
-        // What falls on the other side comes through yellower, of the sun's light and of the sky's.
-        const vec3 through = vec3(1.5, 1.35, 0.45);
-        o.sun += falling * through * (max(-side, 0.0) * 0.65 + 0.10);
+        // What falls on the other side comes through, through green yellower, of the sun's light and of the sky's.
+        vec3 through = kind >= kOwnMeshes || kind == kMeshBlossom ? vec3(1.2) : vec3(1.5, 1.35, 0.45);
+        o.sun += falling * through * (max(-side, 0.0) * 0.55 + 0.06);
         o.sunMirror = falling * (gloss(face, eye, sun, 0.42) * facing * (back ? 0.3 : 1.0));
-        o.sky += 0.95 * through * skyLight(-face);
+        o.sky += 0.40 * through * skyLight(-face);
         // Leaves about it are lit, too, and throw back what is green and warm; what looks up sees less of them.
-        o.sky *= vec3(1.22, 1.16, 0.92) * (0.86 + 0.42 * face.y);
+        o.sky *= vec3(1.24, 1.22, 1.04) * (0.86 + 0.42 * face.y);
     }
     // In the shade the sky's mirror image on the wax is what tells leaves apart.
     float edge = 1.0 - max(dot(face, eye), 0.0);

@@ -13,20 +13,20 @@ struct SmallLeaf {
 
 // v.normal: unit.
 SmallLeaf smallLeaf(TerminalPush push, LeafVertex v) {
-    bool leaf = ((v.instance.bits >> 8u) & 255u) == 1u;
+    uint kind = (v.instance.bits >> 8u) & 255u;
     vec3 eye = normalize(frame.eye - v.position);
-    bool back = dot(v.normal, eye) < 0.0;
+    bool back = shippedMesh(kind) != kMeshTuft && dot(v.normal, eye) < 0.0;
     vec3 face = back ? -v.normal : v.normal;
     float visible = sunVisibility(v.position, dot(face, frame.sunDirection) > 0.0 ? face : -face);
-    LeafLight light = leafLight(face, eye, v.open, visible, leaf, back);
-    LeafTint tint = leafTint(push.baseColor.rgb, v.instance.tint, v.instance.hash, v.patchTone);
+    LeafLight light = leafLight(face, eye, v.open, visible, kind, back);
+    LeafTint tint = leafTint(push.baseColor.rgb, v.instance.tint, v.instance.hash, v.patchTone, kind);
     vec3 all = (light.sun + light.sky) * frame.exposure;
     SmallLeaf o;
     o.own = tint.own * all;
     o.turned = tint.turned * all;
     o.mirrored = (light.sunMirror + light.skyMirror) * frame.exposure;
     o.share = kLeafShade * dot(light.sky, kLeafWeights) / max(dot(light.sun + light.sky, kLeafWeights), 1e-5);
-    o.pictured = leaf && back ? 0.5 : 0.0;
+    o.pictured = back && showsBack(kind) ? 0.5 : 0.0;
     return o;
 }
 #endif

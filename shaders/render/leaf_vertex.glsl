@@ -28,8 +28,8 @@ LeafVertex leafVertexOf(LeafInstance o, TerminalVertex mesh) {
     // Deep in the canopy little sky is seen: measured by the height over the surface, in leaf sizes.
     vec3 ground = octahedralToUnit(o.normal);
     float height = float(o.bits >> 16u) * (1.0 / 65535.0) * 1.1 + dot(arm, ground) / size;
-    v.open = clamp(0.26 + 1.0 * height, 0.18, 1.0);
-    vec3 q = o.origin * (2.3 / frame.unit);
+    v.open = clamp(0.12 + 0.90 * height, 0.10, 1.0);
+    vec3 q = o.origin * (kTonesPerUnit / frame.unit) + frame.tonesFrom;
     v.patchTone = sin(q.x + 1.7 * sin(q.y * 0.8)) * sin(1.3 * q.y + 1.1 * q.z + 2.0 * sin(0.6 * q.x));
     return v;
 }

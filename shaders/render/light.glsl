@@ -8,8 +8,8 @@
 layout(set = 0, binding = 2) uniform sampler2DShadow shadowMap;
 
 // 1: lit. The left half of the map is near and fine, the right half holds all that stands. Four bilinear comparisons in a
-// ring of one and a half texels, two in moving pictures: one leaves dark specks between leaves. Taken by all pixels:
-// measured, a jump over them costs a software device more.
+// ring of one and a half texels, which pictures that are averaged turn and widen differently, two in moving pictures: one
+// leaves dark specks between leaves. Taken by all pixels: measured, a jump over them costs a software device more.
 float sunVisibility(vec3 position, vec3 normal) {
     vec4 at = frame.shadowMatrix * vec4(position + normal * frame.shadowOffset, 1.0);
     vec2 off = abs(at.xy - 0.5);
@@ -20,15 +20,16 @@ float sunVisibility(vec3 position, vec3 normal) {
     at.x = 0.5 * at.x + (near ? 0.0 : 0.5);
     at.z = min(at.z, 0.9999);   // behind all that casts shadows
     vec2 d = vec2(0.375, 0.75) * frame.shadowTexel;
+    vec2 tap = frame.shadowTap;
     float visible;
     if (quick)
         visible = 0.5 * (textureLod(shadowMap, vec3(at.xy + d * vec2(-0.9, -0.45), at.z), 0.0) +
                          textureLod(shadowMap, vec3(at.xy + d * vec2(0.9, 0.45), at.z), 0.0));
     else
-        visible = 0.25 * (textureLod(shadowMap, vec3(at.xy + d * vec2(-1.0, -0.4), at.z), 0.0) +
-                          textureLod(shadowMap, vec3(at.xy + d * vec2(0.4, -1.0), at.z), 0.0) +
-                          textureLod(shadowMap, vec3(at.xy + d * vec2(1.0, 0.4), at.z), 0.0) +
-                          textureLod(shadowMap, vec3(at.xy + d * vec2(-0.4, 1.0), at.z), 0.0));
+        visible = 0.25 * (textureLod(shadowMap, vec3(at.xy - d * tap, at.z), 0.0) +
+                          textureLod(shadowMap, vec3(at.xy + d * vec2(tap.y, -tap.x), at.z), 0.0) +
+                          textureLod(shadowMap, vec3(at.xy + d * tap, at.z), 0.0) +
+                          textureLod(shadowMap, vec3(at.xy + d * vec2(-tap.y, tap.x), at.z), 0.0));
     return covered ? visible : 1.0;
 }
 
@@ -42,7 +43,8 @@ float facingSunVisibility(float facing, vec3 position, vec3 normal) {
 // it sees the lit sides of other things.
 vec3 skyLight(vec3 normal) {
     float up = normal.y * 0.5 + 0.5, side = dot(normal.xz, frame.sunDirection.xz);
-    vec3 above = frame.skyColor * (1.0 + 0.24 * side), below = frame.groundColor * (1.0 - 0.45 * side);
+    vec3 above = frame.skyColor * (1.0 + 0.24 * side);
+    vec3 below = frame.groundColor * ((1.0 - 0.45 * side) * (1.0 + 0.6 * max(-normal.y, 0.0)));
     return mix(below, above, up * up * (3.0 - 2.0 * up));
 }
 

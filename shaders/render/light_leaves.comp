@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Data { LightPush data; };
 
 // So that a moving picture is as bright as one at rest: measured.
-const float kTowardsSun = 0.9, kBent = 1.06;
+const float kTowardsSun = 0.6, kBent = 1.02;
 
 void main() {
     TerminalPush push = data.draw;

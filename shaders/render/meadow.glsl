@@ -43,10 +43,16 @@ vec3 siteAt(sampler2D site, vec2 place, vec2 dx, vec2 dy) {
 // metres: from the eye; laid: siteAt(); pixel: change of laid.x from pixel to pixel; fields: far off lie
 // fields and woods.
 Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy, float metres, vec3 laid, float pixel, bool fields) {
-    const mat2 turned = mat2(0.8, 0.6, -0.6, 0.8) * (1.0 / 5.3);
+    // Near by a small tile says what differs within some metres; farther off its place is taken by a large one, turned
+    // against the tile that says what differs over tens of metres: seen many times over, that alone would be a pattern.
+    const mat2 small = mat2(0.8, 0.6, -0.6, 0.8) * (1.0 / 5.3), large = mat2(0.921, 0.389, -0.389, 0.921) * (1.0 / 409.0);
+    bool close = metres < 50.0;
+    mat2 second = close ? small : large;
     const mat2 mown = mat2(0.6, -0.8, 0.8, 0.6) * (1.0 / 1.3);
     vec4 broad = textureGrad(noise, place * (1.0 / kMeadowTile), dx * (1.0 / kMeadowTile), dy * (1.0 / kMeadowTile)) * 2.0 - 1.0;
-    vec4 near = textureGrad(noise, turned * place, turned * dx, turned * dy) * 2.0 - 1.0;
+    vec4 other = textureGrad(noise, second * place, second * dx, second * dy) * 2.0 - 1.0;
+    vec4 near = other * (close ? 1.0 - smoothstep(30.0, 50.0, metres) : 0.0);
+    vec4 wide = other * (close ? 0.0 : smoothstep(50.0, 130.0, metres));
     // Blades are told apart near by only, and seen too flatly for their mean to do.
     vec4 fine = vec4(0.0);
     float share = clamp(1.5 - metres * 0.03, 0.0, 1.0);
@@ -57,6 +63,10 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     // and what differs within some metres, as slopes do, is lost first.
     float calm = clamp(metres * 0.04 - 0.24, 0.0, 1.0);
     broad *= 1.0 - vec4(0.40, 0.0, 0.85, 0.85) * calm;
+    float tiled = smoothstep(50.0, 130.0, metres);
+    broad *= 1.0 - vec4(0.55, 0.0, 0.5, 0.5) * tiled;
+    broad += vec4(0.42 * wide.x, 0.0, 0.30 * wide.z, 0.22 * wide.w - 0.15 * wide.x);
+    broad *= 1.0 - 0.5 * smoothstep(250.0, 1500.0, metres);
     float grass = smoothstep(-0.30, 0.25, 0.38 + 0.5 * calm + (0.7 * broad.x + 0.8 * near.x) * (1.0 - 0.7 * calm) + 0.75 * fine.y - 1.5 * laid.y);
     float blades = clamp(0.5 + 0.75 * fine.y + 0.2 * near.x * (1.0 - calm), 0.0, 1.0);
     // Here thicker, there thinner, in swathes of some metres.
@@ -67,12 +77,14 @@ Meadow meadowAt(sampler2D noise, sampler2D paving, vec2 place, vec2 dx, vec2 dy,
     float swathe = clamp(broadSwathe(broad) + 0.45 * near.y * (1.0 - calm), 0.0, 1.0);
     green *= swatheTint(swathe);
     vec3 earth = mix(vec3(0.068, 0.056, 0.036), vec3(0.146, 0.122, 0.082), 0.5 + 0.5 * fine.x + 0.2 * near.z) * (1.0 + 0.55 * fine.y);   // and straw on it
-    // Far off lie fields, and woods between them.
+    // Far off lie fields, and woods between them: they lie in strips behind each other. From above they would be blotches.
     float far = clamp(metres * 0.012 - 0.9, 0.0, 1.0);
-    if (fields && far > 0.0) {
+    float aslant = 1.0 - smoothstep(0.12, 0.40, (frame.eye.y - frame.groundLevel) / (frame.unit * max(metres, 1.0)));
+    if (fields && far * aslant > 0.0) {
         vec4 land = textureGrad(noise, place * (1.0 / 730.0), dx * (1.0 / 730.0), dy * (1.0 / 730.0)) * 2.0 - 1.0;
-        green = mix(green, green.yyy * vec3(1.25, 1.12, 0.55), far * smoothstep(0.05, 0.35, land.z));
-        green *= 1.0 - 0.42 * far * smoothstep(0.0, 0.22, land.x + 0.5 * broad.x);
+        land = 0.6 * land + 0.55 * wide.zwxy;   // no wood is there twice
+        green = mix(green, green.yyy * vec3(1.25, 1.12, 0.55), far * aslant * smoothstep(0.05, 0.35, land.z));
+        green *= 1.0 - 0.42 * far * aslant * smoothstep(0.0, 0.22, land.x + 0.5 * broad.x);
     }
     Meadow m;
     m.base = mix(earth, green, grass);

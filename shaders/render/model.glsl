@@ -1,5 +1,5 @@
 // glTF base colour and normal map under sun and sky; or what the other views ask for. ESPALIER_MAPPED: each texture is
-// looked up by UVs of its own, and the material may shine. ESPALIER_GLASS: what lies behind is seen through it.
+// looked up by UVs of its own, and the material may shine or mirror. ESPALIER_GLASS: what lies behind is seen through it.
 #include "shaders/render/light.glsl"
 #include "shaders/render/meadow.glsl"
 
@@ -17,7 +17,9 @@ layout(location = 5) in vec4 tint;   // the vertex's colour
 layout(location = 0) out vec4 color;
 
 #ifdef ESPALIER_MAPPED
+#include "shaders/render/mirror.glsl"
 layout(set = 0, binding = 6) uniform sampler2D emissiveMap;
+layout(set = 0, binding = 7) uniform sampler2D roughnessMap;
 layout(set = 0, binding = 9, scalar) uniform MaterialBlock { MaterialRecord material; };
 layout(location = 4) in vec2 otherUv;
 vec2 lookedUp(vec3 u, vec3 v, uint other) {
@@ -29,6 +31,11 @@ vec2 normalUv() { return lookedUp(material.normalU, material.normalV, material.n
 vec3 emission() {
     vec2 uv = lookedUp(material.emissiveU, material.emissiveV, material.emissiveOther);
     return material.emissive * texelColor(texture(emissiveMap, uv).rgb);
+}
+// Roughness and metal.
+vec2 finish() {
+    vec2 uv = lookedUp(material.roughnessU, material.roughnessV, material.roughnessOther);
+    return texture(roughnessMap, uv).gb * vec2(push.roughness, material.metallic);
 }
 #else
 vec2 colorUv() { return uvs.xy; }
@@ -126,9 +133,9 @@ void addMeadow(vec3 plane, float metres, inout vec3 base, inout vec3 bumped) {
 #ifdef ESPALIER_GLASS
 // A pane: light that it throws back, over what it lets through. Premultiplied by coverage. lit: what the base colour shows, before that; glint: the sun's own image.
 // Where a blended picture has nothing, as around a decal, there is no pane.
-vec4 glass(vec4 base, vec3 bumped, vec3 eye, vec3 lit, vec3 glint) {
+vec4 glass(vec4 base, vec3 bumped, vec3 eye, vec3 lit, vec3 glint, float rough) {
     float c = 1.0 - clamp(abs(dot(bumped, eye)), 0.0, 1.0);
-    float smoothness = 1.0 - 0.8 * push.roughness;
+    float smoothness = 1.0 - 0.8 * rough;
     float there = material.transmission > 0.0 ? 1.0 : min(base.a * 16.0, 1.0);
     float thrown = there * (0.04 + 0.96 * (c * c) * (c * c) * c) * smoothness * smoothness;
     glint *= there;
@@ -178,16 +185,24 @@ void main() {
     vec3 sun = frame.sunDirection;
     float facing = max(dot(bumped, sun), 0.0) * step(0.0, dot(n, sun));
     float visible = facingSunVisibility(facing, position, n);
-#ifdef ESPALIER_GLASS
-    vec3 glint = frame.sunColor * (visible * facing * gloss(bumped, eye, sun, max(push.roughness, 0.15)));
-    color = glass(base, bumped, eye, base.rgb * (frame.sunColor * (visible * facing) + skyLight(bumped)), glint);
+#if defined(ESPALIER_GLASS)
+    float rough = finish().x;
+    vec3 glint = frame.sunColor * (visible * facing * gloss(bumped, eye, sun, max(rough, 0.15)));
+    color = glass(base, bumped, eye, base.rgb * (frame.sunColor * (visible * facing) + skyLight(bumped)), glint, rough);
     return;
-#endif
+#elif defined(ESPALIER_MAPPED)
+    vec2 rough = finish();
+    Mirror mirror = mirrorOf(base.rgb, rough.y, rough.x);
+    vec3 scattered = base.rgb * (1.0 - rough.y);
+    vec3 direct = frame.sunColor * visible * (scattered * facing + mirroredSun(mirror, bumped, eye, sun)) + emission();
+    vec3 ambient = scattered * skyLight(bumped) + mirroredSky(mirror, bumped, eye);
+#else
     vec3 direct = frame.sunColor * visible *
                   (base.rgb * facing + gloss(bumped, eye, sun, max(push.roughness, 0.35)) * facing);
-#ifdef ESPALIER_MAPPED
-    direct += emission();
+    vec3 ambient = base.rgb * skyLight(bumped);
 #endif
-    color = lit(direct, base.rgb * skyLight(bumped));
+#ifndef ESPALIER_GLASS
+    color = lit(direct, ambient);
     if (under) color = mix(color, over, frame.layerOpacity) * vec4(vec3(hatched), 1.0);
+#endif
 }

@@ -40,8 +40,8 @@ void main() {
         // the less it is a neighbour that shades.
         float da = max(z * z / a - z, -3.0 * metres);
         float db = max(z * z / b - z, -3.0 * metres);
-        da = min(da, max(2.5 * metres - 1.5 * da, 0.25 * metres));
-        db = min(db, max(2.5 * metres - 1.5 * db, 0.25 * metres));
+        da = min(da, max(2.5 * metres - 1.5 * da, 0.0));
+        db = min(db, max(2.5 * metres - 1.5 * db, 0.0));
         sum += clamp((da + db) * perReach / length(kTaps[i]) - 0.06, 0.0, 1.0);
     }
     open = clamp(1.0 - 0.34 * sum, kLeastOpen, 1.0);

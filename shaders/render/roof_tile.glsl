@@ -7,11 +7,28 @@
 layout(push_constant, scalar) uniform Data { RoofDrawPush push; };
 layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
-layout(location = 2) out vec4 surface;      // along x and y of the shape in metres, the mesh's shade, tint; -1: a pane of glass
+layout(location = 2) out vec3 surface;      // share of its pixels that a bar covers; the mesh's shade; tint, -1: a pane of glass
 layout(location = 3) flat out uvec4 look;   // colour, hash, bucket, RoofGrid::mesh
 #ifdef ESPALIER_CUT
 out float gl_ClipDistance[8];
 #endif
+
+// A bar before a pane (uv.y as of thinAcross in tools/content) is at least a pixel wide: one that is thinner would be seen
+// in some rows of pixels and not in others. Returns how far out a vertex of it moves, in metres; cover: how much of its
+// pixels the bar covers.
+vec2 widened(RoofDrawEnv env, RoofGrid g, vec3 onPlot, float side, out float cover) {
+    bool alongX = abs(side) > 1.0;
+    float narrow = (abs(side) - (alongX ? 1.0 : 0.0)) * (alongX ? g.size.x : g.size.y);
+    vec3 ray = frame.eye - inWorld(env, g, onPlot);
+    float far = max(length(ray), 0.05);
+    // Seen aslant it is thinner still.
+    float aslant = dot(alongX ? g.axisX : g.axisY, ray) / far;
+    float pixel = far / (frame.pixelScale * sqrt(max(1.0 - aslant * aslant, 0.01)));
+    float least = max(narrow, 0.5 * pixel);
+    cover = narrow / least;
+    float moved = sign(side) * (least - narrow);
+    return alongX ? vec2(moved, 0.0) : vec2(0.0, moved);
+}
 
 void main() {
     RoofDrawEnv env = push.env.v[0];
@@ -31,6 +48,8 @@ void main() {
     float shift = (g.mesh & kGridBond) != 0u && (row & 1u) != 0u ? -0.5 : 0.0;
     vec2 corner = vec2((float(column) + shift) * g.step.x, float(row) * g.step.y);
     vec3 at = vec3(corner + mesh.position.xy * g.size, mesh.position.z * g.thickness);
+    float cover = 1.0;
+    if (mesh.uv.y != 0.0 && (env.flags & kRoofShadow) == 0u) at.xy += widened(env, g, gridPoint(g, at), mesh.uv.y, cover);
     vec3 onPlot = gridPoint(g, at);
     position = inWorld(env, g, onPlot);
     vec3 n = octahedralToUnit(mesh.normal);
@@ -54,7 +73,7 @@ void main() {
         if (!open) shadeHere = mix(1.0 - kDarkOfEdges, shadeHere, clear);
     }
     float tint = push.roughness < kRoughnessOfGlass ? -1.0 : float(g.colour >> 24u) * (1.0 / 255.0);
-    surface = vec4(at.xy, shadeHere, tint);
+    surface = vec3(cover, shadeHere, tint);
     look = uvec4(g.colour & 0xFFFFFFu, cellHash(g, column, row), push.bucket, g.mesh);
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 #ifdef ESPALIER_CUT

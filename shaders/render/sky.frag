@@ -43,7 +43,7 @@ void main() {
     vec2 at = gl_FragCoord.xy * push.rcpSize * 2.0 - 1.0;
     vec3 ray = normalize(frame.rayForward + frame.rayRight * at.x - frame.rayUp * at.y);
     vec3 seen = skyColor(ray);
-    if (ray.y > 0.02) seen = clouds(ray, seen);
+    if (ray.y > 0.02 && frame.studioRadius == 0.0) seen = clouds(ray, seen);
     if (rest) seen = hills(ray, seen);   // the program for pictures with a ground
     color = stored(toneMapped(seen * frame.exposure), 0.0);
     if (frame.view == kViewOverdraw) color = vec4(0.0);

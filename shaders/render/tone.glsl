@@ -9,6 +9,9 @@
 vec3 toneMapped(vec3 c) {
     c = max(c, vec3(0.0));   // below it the curve rises again
     float peak = max(c.x, max(c.y, c.z));
+    // By night eyes tell only lit things' colours; what is dark is grey with a little blue.
+    float grey = frame.night * 0.72 * (1.0 - smoothstep(0.10, 0.55, peak));
+    c = mix(c, dot(c, vec3(0.3, 0.6, 0.1)) * vec3(0.84, 0.98, 1.30), grey);
     c = mix(c, vec3(peak), 0.35 * smoothstep(0.8, 6.0, peak));
     vec3 x = c * 0.62;
     return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);

@@ -5,14 +5,13 @@
 
 // A constant: some devices run both sides of an `if`.
 layout(constant_id = kConstantWindy) const bool windy = false;
-const float kGustTurns = 1.6;   // radians of a gust in a metre
 
 // Where an arm from the stalk's end is blown to, as long as before; its normal goes with it. hash: of the leaf.
 vec3 blown(vec3 arm, inout vec3 normal, vec3 origin, uint hash) {
     float own = float(hash & 1023u) * (6.2831853 / 1024.0);
     vec3 at = origin / frame.unit;
     float along = dot(at, frame.wind) * kGustTurns - frame.windTurns.x;
-    float gust = 1.0 - frame.windGusts * (0.5 - 0.5 * sin(along + 0.8 * sin(dot(at, vec3(1.1, 1.7, 1.3)))));
+    float gust = 1.0 - frame.windGusts * (0.5 - 0.5 * sin(along + 0.8 * sin(dot(at, ESPALIER_GUST_PHASE) + frame.gustsFrom)));
     float bend = frame.windBend * gust;
     vec3 push = frame.wind * (bend * (0.7 + 0.3 * sin(frame.windTurns.y + own))) +
                 normal * (0.4 * bend * sin(frame.windTurns.z + 3.0 * own));

@@ -55,6 +55,19 @@ TEST_CASE("a required extension that may change the shape is refused by name; on
     CHECK(says(warningsOf(model.warnings), "KHR_materials_sheen is not read"));
 }
 
+TEST_CASE("a material's pictures are wrapped as the sampler of the first one says, and repeat without one") {
+    GltfMaker maker = painted(kTextured, {kTinyPng});
+    maker.root["textures"] = {{{"source", 0}}};
+    CHECK(maker.importOrFail().materials[0].wrapU == Wrap::repeat);
+    maker.root["textures"][0]["sampler"] = 0;
+    maker.root["samplers"] = Json::array({Json{{"wrapS", 33071}, {"wrapT", 33648}}});
+    const Material material = maker.importOrFail().materials[0];
+    CHECK(material.wrapU == Wrap::clamp);
+    CHECK(material.wrapV == Wrap::mirror);
+    maker.root["samplers"][0]["wrapT"] = 10497;
+    CHECK(maker.importOrFail().materials[0].wrapV == Wrap::repeat);
+}
+
 TEST_CASE("nodes that are hidden are left out with what hangs below them, and carry skins all the same") {
     GltfMaker maker = squareMaker();
     const Json hidden = {{"KHR_node_visibility", {{"visible", false}}}};
@@ -166,6 +179,20 @@ TEST_CASE("emission has a factor, a strength and a texture; without its texture 
     // A texture that is multiplied by nothing isn't read.
     maker.root["materials"][0]["emissiveFactor"] = {0, 0, 0};
     CHECK(maker.importOrFail().warnings.empty());
+}
+
+TEST_CASE("metal and roughness have factors and a texture, and a material that says nothing of it is of metal") {
+    const Json factors = {
+        {"metallicFactor", 0.75}, {"roughnessFactor", 0.25}, {"metallicRoughnessTexture", {{"index", 0}}}};
+    GltfMaker maker = painted({{"pbrMetallicRoughness", factors}}, {kTinyPng});
+    maker.root["textures"] = {{{"source", 0}}};
+    const Model model = maker.importOrFail();
+    CHECK(model.materials[0].metallic == 0.75f);
+    CHECK(model.materials[0].roughness == 0.25f);
+    CHECK(model.materials[0].roughnessImage == 0);
+    CHECK(model.images[0].rgba == kTinyTexels);
+    CHECK(painted(Json::object()).importOrFail().materials[0].metallic == 1);
+    CHECK(painted({{"pbrMetallicRoughness", {{"metallicFactor", 0}}}}).importOrFail().materials[0].metallic == 0);
 }
 
 TEST_CASE("what is transparent is drawn so: by alpha, or by transmission") {

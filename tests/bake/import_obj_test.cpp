@@ -136,6 +136,8 @@ TEST_CASE("MTL: a texture's options are understood, also before names with blank
             low = glm::min(low, uv), high = glm::max(high, uv);
         CHECK(glm::vec4(low, high) == c.uvs);
         CHECK(model.warnings.empty());
+        const bool clamped = c.statement.find("-clamp on") != std::string::npos;
+        CHECK((model.materials[1].wrapU == Wrap::clamp && model.materials[1].wrapV == Wrap::clamp) == clamped);
     }
     // The walk's UVs stay, and a vertex of two materials becomes two where they scale unlike.
     folder.put("a.mtl", "newmtl a\nmap_Kd -s 2 2 wall.png\nnewmtl b\nmap_Kd wall.png\n");

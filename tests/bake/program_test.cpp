@@ -251,6 +251,49 @@ TEST_CASE("--pieces makes a palette of a folder: each model by its name, of size
     CHECK(!r.has("other.glb"));
 }
 
+TEST_CASE("--terminal makes a leaf of a model: its stalk at the origin, 1 long along +Y, looking along +Z") {
+    Runner r;
+    const auto leafOf = [&](const char* name) {
+        auto bytes = readFile(r.folder / name);
+        REQUIRE(bytes);
+        auto mesh = parseTerminals(*bytes, name, {"none"});
+        if (!mesh) FAIL(mesh.failure().text());
+        REQUIRE(mesh->variants.size() == 1);
+        glm::vec3 low(9), high(-9), normal(0);
+        const TerminalLod& lod = mesh->variants[0].lods[0];
+        for (uint32_t i = 0; i < lod.indexCount; i += 3) {
+            glm::vec3 p[3];
+            for (uint32_t k = 0; k < 3; ++k) {
+                p[k] = mesh->vertices[lod.firstVertex + mesh->indices[lod.firstIndex + i + k]].position;
+                low = glm::min(low, p[k]), high = glm::max(high, p[k]);
+            }
+            normal += glm::cross(p[1] - p[0], p[2] - p[0]);
+        }
+        CHECK(low.y == doctest::Approx(0));
+        CHECK(high.y == doctest::Approx(1));
+        CHECK(high.x == doctest::Approx(.25));
+        CHECK(low.x == doctest::Approx(-.25));
+        CHECK(normal.z > 0);
+    };
+    // Lying on the ground with its tip at the back; standing; standing and looking to the right.
+    const char* const leaves[] = {"v 5 1 9\nv 6 1 9\nv 6 1 7\nv 5 1 7\nf 1 2 3 4\n",
+                                  "v 5 1 9\nv 6 1 9\nv 6 3 9\nv 5 3 9\nf 1 2 3 4\n",
+                                  "v 5 1 9\nv 5 1 8\nv 5 3 8\nv 5 3 9\nf 1 2 3 4\n"};
+    for (const char* leaf : leaves) {
+        CAPTURE(leaf);
+        REQUIRE(writeFile(r.file("leaf.obj"), std::string_view(leaf)));
+        REQUIRE(r.run("leaf.obj -o leaf.terminal.glb --terminal") == 0);
+        CHECK(r.says("terminal: 2 triangles, 1 levels"));
+        leafOf("leaf.terminal.glb");
+    }
+    CHECK(r.run("leaf.obj -o leaf.obj --terminal") == 2);
+    CHECK(r.run("leaf.obj -o x.glb --terminal --pieces") == 2);
+    REQUIRE(writeFile(r.file("bad.obj"), std::string_view("v 0 0 0\n")));
+    CHECK(r.run("bad.obj -o x.glb --terminal") == 1);
+    CHECK(r.says("bad.obj"));
+    CHECK(!r.has("x.glb"));
+}
+
 TEST_CASE("what isn't for a model, a folder or a town is refused by its name, and nothing is made") {
     Runner r;
     std::filesystem::create_directories(r.folder / "models");
@@ -258,8 +301,9 @@ TEST_CASE("what isn't for a model, a folder or a town is refused by its name, an
     REQUIRE(writeFile(r.file("plan.json"), std::string_view(R"({"buildings": [{"id": "a", "outer": )"
                                                             R"([[0, 0], [9, 0], [9, 9], [0, 9]]}]})")));
     REQUIRE(writeFile(r.file("square.obj"), std::string_view("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")));
-    const std::vector<const char*> ofModel{"--report r.json", "--images out", "--from cube.glb --layer log.txt",
-                                           "--from cube.glb --seeds log.txt", "--weights log.txt"},
+    const std::vector<const char*> ofModel{
+        "--report r.json",   "--images out", "--from cube.glb --layer log.txt", "--from cube.glb --seeds log.txt",
+        "--weights log.txt", "--terminal"},
         ofModels{"--resolution 64", "--levels 1", "--tolerance 0", "--uv-set 0",
                  "--scene 0",       "--bare a",   "--ground a",    "--keep-layout"},
         ofFolder{"--jobs 1", "--shard 1/1"},

@@ -120,6 +120,60 @@ TEST_CASE("a leaf's alpha keeps its area over mip levels, and no dark fringe sur
     CHECK(dark == 0);
 }
 
+TEST_CASE("ovals and blossoms lie as leaves do, and tufts stand") {
+    for (int form : {kFirstOval, kFirstOval + 1, kBlossom})
+        for (int lod = 0; lod < kFloraLods; ++lod) {
+            CAPTURE(form);
+            CAPTURE(lod);
+            const Mesh mesh = makeFlora(form, lod);
+            CHECK(triangles(mesh) == std::array<size_t, 3>{22, 10, 5}[static_cast<size_t>(lod)]);
+            float high = 0, up = 0;
+            for (size_t v = 0; v < mesh.positions.size(); ++v) {
+                high = std::max(high, mesh.positions[v].y);
+                up += mesh.normals[v].z;
+                CHECK((mesh.uvs[v].x >= 0 && mesh.uvs[v].x <= 1 && mesh.uvs[v].y >= 0 && mesh.uvs[v].y <= 0.5f));
+            }
+            CHECK(high > 0.85f);
+            CHECK(high < 1.1f);
+            CHECK(up / static_cast<float>(mesh.normals.size()) > 0.6f);
+            CHECK(uncovered(mesh, form) < 0.03f);
+        }
+    for (int lod = 0; lod < kFloraLods; ++lod) {
+        const Mesh tuft = makeTuft(lod);
+        CHECK(triangles(tuft) == std::array<size_t, 3>{6, 4, 2}[static_cast<size_t>(lod)]);
+        for (const glm::vec3& n : tuft.normals) CHECK(n.y > 0.9f);
+        CHECK(uncovered(tuft, kTuft) < 0.001f);
+    }
+}
+
+TEST_CASE("the flora's forms fill their own parts of the atlas, each in its colour") {
+    const LeafAtlas atlas = paintFlora(256);
+    const auto meanOf = [&](int form) {
+        const LeafShape shape = leafShape(form);
+        glm::dvec3 sum(0);
+        int count = 0;
+        for (int y = 0; y < 128; ++y)
+            for (int x = 64 * (form - kFirstOval); x < 64 * (form - kFirstOval + 1); ++x) {
+                const uint8_t* c = atlas.color.at(x, y);
+                if (c[3] < 160) continue;
+                sum += glm::dvec3(c[0], c[1], c[2]);
+                ++count;
+                CHECK(leafDistance(shape, leafPoint(form, {(float(x) + 0.5f) / 256, (float(y) + 0.5f) / 256})) >
+                      -0.02f);
+            }
+        REQUIRE(count > 200);
+        return sum / double(count);
+    };
+    for (int form : {kFirstOval, kFirstOval + 1, kTuft}) {
+        const glm::dvec3 green = meanOf(form);
+        CHECK(green.g > 1.2 * green.r);
+        CHECK(green.g > 1.2 * green.b);
+    }
+    const glm::dvec3 violet = meanOf(kBlossom);
+    CHECK(violet.b > 1.2 * violet.g);
+    CHECK(violet.r > violet.g);
+}
+
 TEST_CASE("backs of leaves are paler") {
     LeafAtlas atlas = paintLeaves(256);
     double front = 0, back = 0;

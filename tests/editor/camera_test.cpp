@@ -220,6 +220,27 @@ TEST_CASE("numpad 0 leads back to where the scene begins, and so does Home in th
     CHECK(away() < 1e-4f);
 }
 
+TEST_CASE("numpad 5 shows what is looked at as large as before, parallel lines nearly parallel, and leads back") {
+    const Folder folder;
+    Visitor visitor(folder);
+    const EspCamera before = visitor.work.camera.camera();
+    const glm::vec3 target = sample::vec(before.target), side(.3f, 0, 0), front(0, 0, .3f);
+    const auto width = [&](glm::vec3 middle) {
+        return glm::distance(visitor.at(middle + side), visitor.at(middle - side));
+    };
+    const float seen = width(target);
+    CHECK(width(target + front) > 1.1f * seen);
+    visitor.key(GLFW_KEY_KP_5);
+    CHECK(visitor.work.camera.flat());
+    CHECK(width(target) == doctest::Approx(seen).epsilon(.01));
+    CHECK(width(target + front) < 1.02f * seen);
+    visitor.key(GLFW_KEY_KP_5);
+    CHECK(!visitor.work.camera.flat());
+    const EspCamera after = visitor.work.camera.camera();
+    CHECK(after.fovY == before.fovY);
+    CHECK(glm::distance(sample::vec(after.eye), sample::vec(before.eye)) < 1e-3f);
+}
+
 TEST_CASE("who walks where the editor looked from below, or low above the ground, stands on it") {
     const Folder folder;
     std::string scene = readAll(smallScene(folder));

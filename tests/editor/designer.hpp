@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "tests/editor/editing.hpp"
@@ -37,6 +38,17 @@ class Designer {
         REQUIRE_MESSAGE(writeGrey(file_, picture, editing.error), editing.error);
     }
     Actions any(size_t kind) { return any(kind, std::make_index_sequence<kKinds>()); }
+    // Each kind comes as often as any other, in an order by chance.
+    Actions next() {
+        if (deck_.empty()) {
+            deck_.resize(kKinds);
+            std::iota(deck_.begin(), deck_.end(), size_t(0));
+            std::ranges::shuffle(deck_, random_);
+        }
+        const size_t kind = deck_.back();
+        deck_.pop_back();
+        return any(kind);
+    }
     uint32_t pick(size_t count) { return uint32_t(random_() % count); }
     float chance(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
 
@@ -134,6 +146,8 @@ class Designer {
         if (scene().seeds.empty()) return {};
         editing_.hash();  // only what has grown can be frozen
         const SeedRecord seed = anySeed();
+        if (const auto* known = editing_.document->seed(seed.key); known && known->hidden)
+            return {};  // nor what is hidden
         FreezeSeeds freeze{{seed.key}, !seed.frozen};
         if (pick(4) == 0) freeze.keys.push_back(seed.key);
         return {freeze};
@@ -168,6 +182,66 @@ class Designer {
         set.said = pick(4) > 0;
         return {set};
     }
+    Actions make(PlaceSurface) {
+        return {PlaceSurface{0, {chance(-.3f, .3f), 0, chance(-.3f, .3f)}, chance(-.2f, .2f), 1}};
+    }
+    Actions make(SetLook) {
+        SetLook look{pick(2), "bark"};
+        if (pick(3) > 0) look.colour = {chance(0, 1), chance(0, 1), chance(0, 1)};
+        return {look};
+    }
+    Actions make(SetBookmark) {
+        return {SetBookmark{1 + pick(3), pick(3) > 0, {chance(1, 2), 1, chance(1, 2)}, {0, chance(0, 1), 0}}};
+    }
+    Actions make(ShowPlants) {
+        if (scene().seeds.empty()) return {};
+        return {ShowPlants{{anySeed().key}, pick(2) == 0}};
+    }
+    Actions make(ShowSurfaces) { return {ShowSurfaces{{0}, pick(2) == 0}}; }
+    // What is locked isn't moved: so it is for a moment only.
+    Actions make(LockSurface) { return {LockSurface{0, true}, LockSurface{0, false}}; }
+    Actions make(ShowHouses) {
+        const uint32_t houses = espHouseCount(document_.context());
+        if (!scene().town || houses == 0) return {};
+        return {ShowHouses{{pick(houses)}, pick(2) == 0}};
+    }
+    Actions make(LockHouse) {
+        if (!scene().town || espHouseCount(document_.context()) == 0) return {};
+        return {LockHouse{0, true}, LockHouse{0, false}};
+    }
+    Actions make(LockLayer) {
+        if (scene().layers.empty()) return {};
+        return {LockLayer{scene().layers[0], true}, LockLayer{scene().layers[0], false}};
+    }
+    Actions make(AddGrammar) {
+        if (scene().grammars.size() > kTown + 1) return {};
+        return {AddGrammar{content("grammars/ivy_path.grammar")}};
+    }
+    Actions make(AddGraph) {
+        if (scene().graphs.size() > 1) return {};
+        return {AddGraph{"some.graph", "graph 1\na = Cube\nb = Twist(a, angle: 0.7)\nc = Sphere\nshow b\n"}};
+    }
+    Actions make(SetGraphText) {
+        if (scene().graphs.empty()) return make(AddGraph());
+        const std::string text = "graph 1\na = Cube(cells: " + std::to_string(1 + pick(3)) + ")\nshow a\n";
+        return {SetGraphText{0, pick(3) ? text : "graph 1\na = Cu be\n"}};
+    }
+    // Of a text that is there before, so that nothing of it is refused.
+    Actions graphEdit(Action edit) {
+        if (scene().graphs.empty()) return make(AddGraph());
+        return {SetGraphText{0, "graph 1\na = Cube\nb = Twist(a)\nc = Torus\nshow b\n"}, edit};
+    }
+    Actions make(AddNodes) { return graphEdit(AddNodes{0, "graph 1\nd = Sphere\n"}); }
+    Actions make(RemoveNodes) { return graphEdit(RemoveNodes{0, {pick(2) ? "a" : "b"}, pick(2) == 0}); }
+    Actions make(SetNodeInput) { return graphEdit(SetNodeInput{0, "b", "angle", std::to_string(pick(9))}); }
+    Actions make(ConnectNodes) { return graphEdit(ConnectNodes{0, "b", "geometry", pick(2) ? "c" : ""}); }
+    Actions make(MoveNodes) { return graphEdit(MoveNodes{0, {"a"}, {{chance(0, 100), 7}}}); }
+    Actions make(RenameNode) { return graphEdit(RenameNode{0, "a", "cube" + std::to_string(pick(9))}); }
+    Actions make(ShowNodes) { return graphEdit(ShowNodes{0, {pick(2) ? "a" : "c"}}); }
+    Actions make(MuteNodes) { return graphEdit(MuteNodes{0, {"b"}, pick(3) > 0}); }
+    Actions make(SetGraphTime) { return {SetGraphTime{pick(100), 30}}; }
+    // Once it is done again, what followed it can't be: it has tests of its own.
+    Actions make(AddSurface) { return {}; }
     Actions make(SetWalk) { return {SetWalk{pick(2) ? "paper" : "intrinsic"}}; }
     Actions make(StrokeBegin) {
         const bool town = pick(2);
@@ -216,6 +290,7 @@ class Designer {
     Actions make(StrokeDabs) { return {}; }
     Actions make(StrokeEnd) { return {}; }
     Actions make(SwapStroke) { return {}; }
+    Actions make(DropLast) { return {}; }
     Actions make(RestoreFrozen) { return {}; }
 
     std::string anyLayer(bool town) {
@@ -225,7 +300,8 @@ class Designer {
     Editing& editing_;
     Document& document_;
     std::mt19937 random_;
-    size_t first_;  // what was done before stays
+    std::vector<size_t> deck_;  // kinds that come next, the last first
+    size_t first_;              // what was done before stays
     std::vector<std::string> plants_, roofs_;
     std::string file_;
 };

@@ -26,10 +26,10 @@ struct Home {
 // All that is remembered of a layout. A new field doesn't compile here until it is said whether it is.
 auto remembered(const Layout& of) {
     const auto& [panel, figures, grammar, atlas, help, panelWidth, windowWidth, windowHeight, maximised, sizeOfAll,
-                 layerOpacity, smallerWhileMoving, rowStep, rowAlong] = of;
+                 layerOpacity, smallerWhileMoving, rowStep, rowAlong, recent] = of;
     (void)help;  // it is closed at the beginning
     return std::tuple(panel, figures, grammar, atlas, panelWidth, windowWidth, windowHeight, maximised, sizeOfAll,
-                      layerOpacity, smallerWhileMoving, rowStep, rowAlong);
+                      layerOpacity, smallerWhileMoving, rowStep, rowAlong, recent);
 }
 
 // Of a brush what it is like, not what it goes over.
@@ -62,7 +62,8 @@ Layout unlikeLayout() {
             .layerOpacity = .25f,
             .smallerWhileMoving = false,
             .rowStep = .5f,
-            .rowAlong = true};
+            .rowAlong = true,
+            .recent = {"/gardens/wall"}};
 }
 
 Brush unlikeBrush() {

@@ -36,7 +36,7 @@ TEST_CASE("each step of undo is called by what it changed, and of what") {
     house.rings[0] -= 1;
     CHECK(named(SetHouse{house}) == "Corner removed of house b");
 
-    CHECK(named(SetParam{0, {"leafSize", {.1f}}}) == "Size of the leaves (ivy_guided)");
+    CHECK(named(SetParam{0, {"leafSize", {.1f}}}) == "Leaf size (ivy_guided)");
     CHECK(named(SetParam{1, {"reach", {1}}}) == "Length (creeper)");
     REQUIRE(editing.perform(SetParam{1, {"bend", {.2f}}}, gesture));  // as a preset does
     CHECK(document.undoName() == std::string("Values of creeper"));

@@ -138,6 +138,19 @@ TEST_CASE("a layer with a long name is saved and comes back; one whose name lead
     CHECK(contentsOf(garden.path) == before);
 }
 
+TEST_CASE("a text that a killed program has left unfinished keeps no layer") {
+    Garden garden;
+    garden.save();
+    const std::string older = garden.layers()[0];
+    const std::string left = garden.path + "/.unfinished-999999999-0123456789abcdef";
+    fs::copy_file(garden.path + "/project.json", left);
+    garden.fill(.5f);
+    garden.save();
+    CHECK_FALSE(fs::exists(left));
+    CHECK_FALSE(fs::exists(older));
+    CHECK(garden.layers().size() == 1);
+}
+
 TEST_CASE("a layer that another text in the folder names stays as long as that is there") {
     Garden garden;
     garden.save();

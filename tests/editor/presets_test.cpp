@@ -5,6 +5,7 @@
 #include "sample_game/panels.hpp"
 #include "sample_game/settings.hpp"
 #include "tests/editor/widgets.hpp"
+#include "tools/scene/picture.hpp"
 
 using namespace espalier::document;
 using namespace sample;
@@ -125,7 +126,7 @@ TEST_CASE("the presets that come with a grammar say values that it takes, and on
     CHECK_MESSAGE(contains(editor.work.message, "already"), editor.work.message);
     // What a slider does next is a step of its own, by its own name.
     REQUIRE(editor.work.perform(SetParam{0, {"leafSize", {.1f}}}, editor.work.newGesture()));
-    CHECK(contains(editor.work.document->undoName(), "Size of the leaves"));
+    CHECK(contains(editor.work.document->undoName(), "Leaf size"));
     pressWidget(editor, "panel", {0, "##presets"});
     pressWidget(editor, "##Combo_00", {"As the grammar says"});
     CHECK(editor.work.document->undoName() == "The text's own values of ivy_free"s);
@@ -154,4 +155,37 @@ TEST_CASE("a name that is another's once it is a file's is told to replace that 
     std::vector<Param> kept;
     REQUIRE(readPreset("ivy_guided", "a-b", kept, error));
     CHECK(!kept.empty());
+}
+
+TEST_CASE("a preset's picture goes where the preset goes, and is a picture of the view") {
+    const Folder folder;
+    setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
+    const std::vector<Param> params{{"reach", {3}}};
+    std::string error;
+    const auto there = [](const char* name) { return std::filesystem::exists(presetPicture("ivy", name)); };
+    REQUIRE(writePreset("ivy", "long", params, error));
+    CHECK(!there("long"));
+    {
+        Window window(folder, smallScene(folder));
+        setenv("XDG_CONFIG_HOME", folder.path.c_str(), 1);
+        window.work.lookFrom(window.work.scene().camera);
+        REQUIRE(espUpdate(window.work.context.get()) == ESP_OK);
+        REQUIRE_MESSAGE(window.work.writeView(presetPicture("ivy", "long"), 96, 64), window.work.error);
+        CHECK(!window.work.writeView(folder.file("no/such/folder.png"), 96, 64));
+    }
+    espalier::scene::ColourPicture picture;
+    REQUIRE_MESSAGE(readColour(presetPicture("ivy", "long"), picture, error), error);
+    CHECK(picture.width == 96);
+    CHECK(picture.height == 64);
+    size_t differ = 0;
+    for (size_t i = 4; i < picture.rgba.size(); i += 4) differ += picture.rgba[i] != picture.rgba[0];
+    CHECK(differ > 1000);
+    REQUIRE(renamePreset("ivy", "long", "far", error));
+    CHECK((there("far") && !there("long")));
+    REQUIRE(removePreset("ivy", "far", error));
+    REQUIRE(restorePreset("ivy", error));
+    CHECK(there("far"));
+    // Other values under the name have another picture.
+    REQUIRE(writePreset("ivy", "far", params, error));
+    CHECK(!there("far"));
 }

@@ -110,7 +110,7 @@ TEST_CASE("a bare model of another unit is shown at a living size, and so is the
 
 TEST_CASE("a project of a newer program is refused by name, a mangled one with its place") {
     const Folder folder;
-    folder.write("mangled.json", "{\"project\": 1,\n \"surfaces\": []}");
+    folder.write("mangled.json", "{\"project\": 1,\n \"surfaces\": {}}");
     folder.write("newer.json", "{\"project\": " + std::to_string(espalier::scene::SceneFile::kProjectVersion + 1) +
                                    ",\n \"unheard\": 1}");
     const std::string capture = program("espalier-capture") + " -o " + folder.file("out") + " ";

@@ -26,12 +26,34 @@ TEST_CASE("every action comes back from its line") {
         ResetHouse{3},
         LoadTownLayer{"moss", "moss.png"},
         SetField{1, {"flow", {0, -1, .5f}, .25f, {{"wedge", {1, 2, 3}, {0, 0, 1}, .5f}}}, true},
+        AddSurface{"wall.surface.glb", {1, 2, -3}, .5f, 2},
+        PlaceSurface{1, {1, 2, -3}, .5f, 2},
+        AddGrammar{"ivy.grammar"},
+        SetLook{1, "leaf", "leaf.terminal.glb", "leaf.png", {.1f, .5f, .2f}},
+        SetBookmark{3, true, {1, 2, 3}, {4, 5, 6}, .7f},
+        ShowPlants{{1, 2}, false},
+        ShowSurfaces{{0}, false},
+        LockSurface{1, true},
+        ShowHouses{{2, 4}, false},
+        LockHouse{3, true},
+        LockLayer{"mask", true},
+        AddGraph{"some.graph", "graph 1\na = Cube\n"},
+        SetGraphText{0, "graph 1\nb = Sphere\n"},
+        AddNodes{0, "graph 1\nc = Torus\n"},
+        RemoveNodes{0, {"a", "b"}, true},
+        SetNodeInput{0, "b", "radius", "0.25"},
+        ConnectNodes{0, "b", "geometry", "a.mesh", 2},
+        MoveNodes{0, {"a"}, {{1, -2.5f}}},
+        RenameNode{0, "a", "box"},
+        ShowNodes{0, {"b"}},
+        MuteNodes{0, {"b"}, true},
+        SetGraphTime{12, 24},
         SetCamera{{1, 2, 3}, {4, 5, 6}, .7f},
         SetView{"layer", "mask"},
         Undo{},
         Redo{},
     };
-    CHECK(std::size(actions) == std::variant_size_v<Action> - 2 + 2);  // the inverses aside, two come twice
+    CHECK(std::size(actions) == std::variant_size_v<Action> - 3 + 2);  // the inverses aside, two come twice
     for (const Action& action : actions) {
         const std::string line = toJson({12, 3, action});
         CAPTURE(line);

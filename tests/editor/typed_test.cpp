@@ -8,8 +8,8 @@ using sample::Tool;
 namespace {
 
 // The wall of the small scene.
-struct Gardener : User {
-    explicit Gardener(const Folder& folder) : User(folder, smallScene(folder), Tool::seeds) {
+struct Planter : User {
+    explicit Planter(const Folder& folder) : User(folder, smallScene(folder), Tool::seeds) {
         faceWall(*this, 1.4f);
         panel = [this] { sample::seedsPanel(work); };
         rest();
@@ -48,7 +48,7 @@ struct Builder : OverTown<User> {
 
 TEST_CASE("what stands in a seed's field stays that seed's, whichever seed is clicked next") {
     const Folder folder;
-    Gardener gardener(folder);
+    Planter gardener(folder);
     const uint32_t a = gardener.plant(gardener.onWall(-1.1f, 1)), b = gardener.plant(gardener.onWall(-.8f, 1.4f));
     const uint32_t numberA = gardener.seed(a).number, numberB = gardener.seed(b).number;
     REQUIRE(numberA != numberB);
@@ -70,7 +70,7 @@ TEST_CASE("what stands in a seed's field stays that seed's, whichever seed is cl
 
 TEST_CASE("a random number that is typed stays within what there is") {
     const Folder folder;
-    Gardener gardener(folder);
+    Planter gardener(folder);
     const uint32_t a = gardener.plant(gardener.onWall(-1.1f, 1));
     for (const auto& [typed, number] :
          {std::pair{"-5", 0u}, {"99999999999", 4294967295u}, {"4294967295", 4294967295u}}) {
@@ -83,7 +83,7 @@ TEST_CASE("a random number that is typed stays within what there is") {
 
 TEST_CASE("Esc takes back a random number that is typed, of several seeds each its own, and leaves no step behind") {
     const Folder folder;
-    Gardener gardener(folder);
+    Planter gardener(folder);
 #if IMGUI_VERSION_NUM < 18700
     ImGui::GetIO().KeyMap[ImGuiKey_Escape] = GLFW_KEY_ESCAPE;
 #endif
@@ -108,7 +108,7 @@ TEST_CASE("Esc takes back a random number that is typed, of several seeds each i
 
 TEST_CASE("any button that is pressed beside panels leaves the field that is typed into") {
     const Folder folder;
-    Gardener gardener(folder);
+    Planter gardener(folder);
     const uint32_t a = gardener.plant(gardener.onWall(-1.1f, 1));
     for (const auto& [button, number] : {std::pair(GLFW_MOUSE_BUTTON_RIGHT, "12"), {GLFW_MOUSE_BUTTON_MIDDLE, "34"}}) {
         CAPTURE(button);
@@ -130,7 +130,7 @@ TEST_CASE("any button that is pressed beside panels leaves the field that is typ
 
 TEST_CASE("any button that is pressed beside a grammar's text gives letters back to the tools") {
     const Folder folder;
-    Gardener gardener(folder);
+    Planter gardener(folder);
     gardener.work.window = {1280, 720};
     gardener.work.layout.grammar = true;
     gardener.panel = [&] { sample::showGrammarWindow(gardener.work); };
@@ -180,7 +180,7 @@ TEST_CASE("a height that is typed is the house's that was chosen, whatever is cl
 
 TEST_CASE("a stroke that follows what is typed into the brush paints by it") {
     const Folder folder;
-    Gardener painter(folder);
+    Planter painter(folder);
     painter.work.choose(Tool::paint);
     painter.panel = [&] { sample::brushPanel(painter.work); };
     painter.tapTwice(painter.placeOf({"Value", "##value"}));
@@ -218,7 +218,7 @@ TEST_CASE("a number that is half typed is part of what Ctrl+S saves, and keeps C
 TEST_CASE(
     "two sliders that are clicked one right after the other both go where they were clicked, and each can be undone") {
     const Folder folder;
-    Gardener user(folder);
+    Planter user(folder);
     float values[2] = {10, 20};
     size_t steps[2] = {};
     glm::vec2 places[2];
@@ -250,7 +250,7 @@ TEST_CASE(
 
 TEST_CASE("undo and redo right behind a click on a slider are of what it does") {
     const Folder folder;
-    Gardener user(folder);
+    Planter user(folder);
     auto& document = *user.work.document;
     float value = 10;
     glm::vec2 place{0};
@@ -284,7 +284,7 @@ TEST_CASE("undo and redo right behind a click on a slider are of what it does") 
 
 TEST_CASE("what was typed into a panel that has been closed since isn't typed any more") {
     const Folder folder;
-    Gardener user(folder);
+    Planter user(folder);
     float value = 10;
     bool shown = true;
     user.panel = [&] {
@@ -301,7 +301,7 @@ TEST_CASE("what was typed into a panel that has been closed since isn't typed an
 
 TEST_CASE("the click that ends what a key has begun presses nothing in the panel under it") {
     const Folder folder;
-    Gardener user(folder);
+    Planter user(folder);
     int pressed = 0;
     user.panel = [&] { pressed += ImGui::Button("Press me", {200, 60}); };
     user.plant(user.onWall(-1.1f, 1));
@@ -333,7 +333,7 @@ TEST_CASE("the click that ends what a key has begun presses nothing in the panel
 
 TEST_CASE("Esc takes back drags of the brush's slopes and heights") {
     const Folder folder;
-    Gardener painter(folder);
+    Planter painter(folder);
     sample::Brush& brush = painter.work.brush;
     painter.work.choose(Tool::paint);
     painter.panel = [&] { sample::brushPanel(painter.work); };

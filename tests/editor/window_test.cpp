@@ -71,6 +71,26 @@ TEST_CASE("a drag of the atlas's level shows another, is nothing to undo, and is
     for (const RunLine& line : recorded.lines) CHECK(std::holds_alternative<SetCamera>(line.action));
 }
 
+#ifdef ESPALIER_DROP
+TEST_CASE("somebody with a model has ivy on it after a drop, a click and a drag, and no key") {
+    if (!hasDisplay()) return;
+    const Folder folder;
+    std::filesystem::copy_file(content("vase.glb"), folder.path / "vase.glb");
+    const Ran ran =
+        runOnDisplay("900x560", "tests/editor/drive_drop " + program("espalier-sample") + " " + ESPALIER_DROP + " " +
+                                    folder.file("vase.glb") + " " + folder.path.string());
+    REQUIRE_MESSAGE(ran.code == 0, ran.output);
+    CHECK(autosavesIn(folder.path).size() == 1);
+    const Ran shown =
+        run(program("espalier-capture") + " --replay " + folder.file("run.jsonl") +
+            " --every 1000000 --size 64x40 -o " + folder.file("out") + " --stats " + folder.file("s.json"));
+    REQUIRE_MESSAGE(shown.code == 0, shown.output);
+    const std::string stats = readAll(folder.path / "s.json");
+    CHECK(contains(stats, "\"seeds\":1,"));
+    CHECK(!contains(stats, "\"leaves\":0,"));
+}
+#endif
+
 TEST_CASE("a picture that can't be written is told of, and the editor goes on") {
     if (!hasDisplay()) return;
     const Folder folder;

@@ -22,8 +22,9 @@ void check(Result<Model> model) {
     require(model->otherUvs.empty() || model->otherUvs.size() == vertices, "a second UV a vertex");
     const int images = int(model->images.size());
     for (const Material& m : model->materials) {
-        for (int image : {m.baseColorImage, m.normalImage, m.emissiveImage}) require(image < images, "images exist");
-        for (const TextureMap* map : {&m.baseColorMap, &m.normalMap, &m.emissiveMap})
+        for (int image : {m.baseColorImage, m.normalImage, m.emissiveImage, m.roughnessImage})
+            require(image < images, "images exist");
+        for (const TextureMap* map : {&m.baseColorMap, &m.normalMap, &m.emissiveMap, &m.roughnessMap})
             require(map->set == 0 || (map->set == 1 && !model->otherUvs.empty()) || model->uvs.empty(),
                     "UV sets exist");
     }

@@ -58,6 +58,7 @@ EspContext* create(const EspHostDevice* host, const char* cache) {
     def.logUser = &logged;
     def.cacheFolder = cache;
     OK(NULL, espCreate(ESP_VERSION, &def, &context));
-    CHECK(context != NULL && espDeviceName(context)[0] != 0 && espLastError(context)[0] == 0);
+    CHECK(context != NULL && espDeviceName(context)[0] != 0 && espDriverName(context)[0] != 0 &&
+          espLastError(context)[0] == 0);
     return context;
 }

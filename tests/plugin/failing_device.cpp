@@ -17,10 +17,11 @@ struct Handles {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
+    VkDevice old = VK_NULL_HANDLE;
 } handles;
 
 struct Plan {
-    bool armed = false, lost = false;
+    bool armed = false, lost = false, submitsOnly = false;
     FailingDevice::Failure how = FailingDevice::Failure::OutOfMemory;
     uint32_t at = 0, calls = 0;
     const char* failed = "";
@@ -43,7 +44,7 @@ VkResult verdict(const char* name, FailingDevice::Failure kind) {
         return plan.oddResult;
     }
     if (plan.lost && kind == FailingDevice::Failure::Lost) return VK_ERROR_DEVICE_LOST;
-    if (kind != plan.how) return VK_SUCCESS;
+    if (kind != plan.how || (plan.submitsOnly && std::strcmp(name, "vkQueueSubmit2"))) return VK_SUCCESS;
     if (plan.calls++ != plan.at || !plan.armed) return VK_SUCCESS;
     plan.failed = name;
     plan.lost = kind == FailingDevice::Failure::Lost;
@@ -128,6 +129,22 @@ FailingDevice::FailingDevice() {
     REQUIRE(vkEnumeratePhysicalDevices(handles.instance, &count, &handles.physical) >= 0);
     REQUIRE(count == 1);
 
+    makeDevice();
+}
+
+void FailingDevice::renew() {
+    REQUIRE(handles.old == VK_NULL_HANDLE);
+    handles.old = handles.device;
+    plan = {};
+    makeDevice();
+}
+
+void FailingDevice::dropOld() {
+    vkDestroyDevice(handles.old, nullptr);
+    handles.old = VK_NULL_HANDLE;
+}
+
+void FailingDevice::makeDevice() {
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{};
     queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -141,6 +158,7 @@ FailingDevice::FailingDevice() {
 }
 
 FailingDevice::~FailingDevice() {
+    dropOld();
     vkDestroyDevice(handles.device, nullptr);
     vkDestroyInstance(handles.instance, nullptr);
     handles = {};
@@ -162,7 +180,8 @@ void FailingDevice::failAt(uint32_t at, Failure how) {
     plan = {};
     plan.armed = true;
     plan.at = at;
-    plan.how = how;
+    plan.submitsOnly = how == Failure::LostAtSubmit;
+    plan.how = plan.submitsOnly ? Failure::Lost : how;
 }
 
 void FailingDevice::answerOddly(const char* function, uint32_t at, int result) {

@@ -12,10 +12,11 @@ namespace espalier {
 class FailingDevice {
   public:
     enum class Failure {
-        OutOfMemory,  // one call gives VK_ERROR_OUT_OF_DEVICE_MEMORY and does nothing; later calls are as ever
-        Full,         // the GPU's memory is all taken: no call of vkAllocateMemory works from now on
-        Lost,         // this call and all after it give VK_ERROR_DEVICE_LOST, as after a crash of the GPU
-        Odd,          // see answerOddly
+        OutOfMemory,   // one call gives VK_ERROR_OUT_OF_DEVICE_MEMORY and does nothing; later calls are as ever
+        Full,          // the GPU's memory is all taken: no call of vkAllocateMemory works from now on
+        Lost,          // this call and all after it give VK_ERROR_DEVICE_LOST, as after a crash of the GPU
+        LostAtSubmit,  // likewise, and only submissions count
+        Odd,           // see answerOddly
     };
 
     FailingDevice();
@@ -33,12 +34,19 @@ class FailingDevice {
     static std::vector<const char*> functions();
     // Nothing fails any more.
     void heal();
+    // Another device of the same GPU, and nothing fails on it; host() is of that one from now on. The one before lives
+    // until dropOld().
+    void renew();
+    void dropOld();
     // What is submitted has been done when the call returns, as on a fast GPU, or not before long.
     void finishAtOnce(bool does);
     // Calls since the last failAt or heal that could have failed in the way last asked for.
     uint32_t calls() const;
     // The function that failed, or an empty text if none has.
     std::string failed() const;
+
+  private:
+    static void makeDevice();
 };
 
 }  // namespace espalier

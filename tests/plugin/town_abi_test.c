@@ -248,6 +248,43 @@ static void courtyards(EspContext* context) {
     CHECK(stats(context).hash != hash);
 }
 
+/* Houses that are hidden, one and all, with what changes them meanwhile. */
+static void hiding(EspContext* context) {
+    EspHouseInfo info = {.structSize = sizeof info};
+    OK(context, espUpdate(context));
+    const EspRoofStats all = stats(context);
+    OK(context, espHideHouse(context, 1, 1));
+    OK(context, espHouseInfo(context, 1, &info));
+    CHECK(info.hidden == 1);
+    OK(context, espUpdate(context));
+    const EspRoofStats one = stats(context);
+    CHECK(one.tiles < all.tiles && one.tiles > 0 && one.housesGrown == all.housesGrown + 1);
+    OK(context, espHideHouse(context, 1, 1)); /* it is */
+    OK(context, espUpdate(context));
+    CHECK(stats(context).housesGrown == one.housesGrown);
+
+    EspHouseDef change = {.structSize = sizeof change, .shape = ESP_ROOF_GABLE, .slope = 0.9f};
+    OK(context, espSetHouse(context, 1, &change));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == one.hash);
+    OK(context, espHideHouse(context, 1, 0));
+    OK(context, espUpdate(context));
+    const uint64_t changed = stats(context).hash;
+    CHECK(changed != all.hash && changed != one.hash);
+    OK(context, espResetHouse(context, 1));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == all.hash && stats(context).tiles == all.tiles);
+
+    for (uint32_t i = 0; i < kHouses; ++i) OK(context, espHideHouse(context, i, 1));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).tiles == 0);
+    for (uint32_t i = 0; i < kHouses; ++i) OK(context, espHideHouse(context, i, 0));
+    OK(context, espUpdate(context));
+    CHECK(stats(context).hash == all.hash);
+    REFUSED(espHideHouse(context, kHouses, 1));
+    REFUSED(espHideHouse(NULL, 0, 1));
+}
+
 static void layers(EspContext* context) {
     EspTownInfo info = {.structSize = sizeof info};
     OK(context, espTownInfo(context, &info));
@@ -442,6 +479,7 @@ int main(void) {
 
     houses(context);
     courtyards(context);
+    hiding(context);
     layers(context);
     views(context);
     triangles(context);

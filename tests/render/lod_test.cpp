@@ -16,9 +16,9 @@ namespace {
 constexpr uint32_t kWidth = 320, kHeight = 240;
 using Pixels = std::vector<uint8_t>;
 
-class Stage : public test::Drawn {
+class Walls : public test::Drawn {
   public:
-    Stage() { background(4); }
+    Walls() { background(4); }
 
     // From the front, at this many radii.
     void look(const SurfaceData& data, float radii) {
@@ -102,7 +102,7 @@ SurfaceData closedModel() {
 TEST_CASE("a closed model over a bright background shows none of it inside its silhouette, at any level") {
     const SurfaceData data = closedModel();
     REQUIRE(data.coarser.size() >= 3);
-    Stage stage;
+    Walls stage;
     stage.look(data, 2.4f);
     for (size_t level = 0; level <= data.coarser.size(); ++level) {
         CAPTURE(level);
@@ -131,7 +131,7 @@ TEST_CASE("a closed model over a bright background shows none of it inside its s
 
 TEST_CASE("where a level takes over, no frame's mean changes by more than a fiftieth, and it ends") {
     const SurfaceData data = closedModel();
-    Stage stage;
+    Walls stage;
     for (size_t level = 0; level < data.coarser.size(); ++level) {
         CAPTURE(level);
         const float error = data.coarser[level].error;
@@ -167,7 +167,7 @@ TEST_CASE("where a level takes over, no frame's mean changes by more than a fift
 // As in a split screen or a mirror: what the other one shows is no reason to go on from.
 TEST_CASE("two cameras that take turns each show what they would alone") {
     const SurfaceData data = closedModel();
-    Stage stage;
+    Walls stage;
     stage.look(data, 2.4f);
     stage.allow(data.coarser.front().error * 0.999f);
     stage.place(data);
@@ -189,7 +189,7 @@ TEST_CASE("two cameras that take turns each show what they would alone") {
 TEST_CASE("a model beside or behind the view isn't drawn, one that reaches into it is, and comes back as it was") {
     const SurfaceData data = closedModel();
     const float radius = glm::length(data.boundsMax - data.boundsMin) / 2;
-    Stage stage;
+    Walls stage;
     stage.look(data, 2.4f);
     stage.allow(0);
     stage.place(data);
@@ -217,7 +217,7 @@ TEST_CASE("a model beside or behind the view isn't drawn, one that reaches into 
 
 TEST_CASE("in a moving picture another level takes over at once, and the mean changes by less than one in 255") {
     const SurfaceData data = closedModel();
-    Stage stage;
+    Walls stage;
     stage.inputs.look.quick = true;
     for (size_t level = 0; level < data.coarser.size(); ++level) {
         CAPTURE(level);
@@ -260,7 +260,7 @@ TEST_CASE("backs of a solid model's faces aren't drawn, and nobody sees it") {
         open.indices.push_back(first + uint32_t(i));
     }
     open.ranges.back().indexCount += 3;
-    Stage stage;
+    Walls stage;
     stage.inputs.look.lodPixels = 0;
     const auto drawn = [&](const SurfaceData& data, ViewMode view) {
         stage.place(data);
@@ -284,7 +284,7 @@ TEST_CASE("backs of a solid model's faces aren't drawn, and nobody sees it") {
 }
 
 TEST_CASE("what a model hides is not drawn while one of its levels takes over, either") {
-    Stage stage;
+    Walls stage;
     const test::Plant ivy = test::upload(stage.device(), test::wallIvy(8, 2, 1.5f));
     stage.inputs.growth = ivy.view;
     stage.inputs.surfaces = ivy.surfaceBuf;

@@ -1,4 +1,4 @@
-// What materials look like beyond a plain colour: textures by UVs of their own, light, glass.
+// What materials look like beyond a plain colour: textures by UVs of their own, light, metal, glass.
 #include <doctest/doctest.h>
 
 #include "tests/render/drawn.hpp"
@@ -97,6 +97,25 @@ TEST_CASE("textures are looked up by their own UV set and transform") {
     CHECK(both.b > both.g + 60);
 }
 
+TEST_CASE("beyond its borders a picture repeats, ends or is mirrored as its material says") {
+    Material m;
+    m.baseColorImage = 0;
+    // The middle of the square shows u = 1.17 and then -0.17: the picture's first, last or first texel again.
+    const auto seen = [&](Wrap wrap, float u) {
+        m.wrapU = wrap;
+        m.baseColorMap = {.offset = {u - .005f, 0}, .scale = {0.01f, 1}};
+        return middle(squares({{0, m, kRedGreenBlue}}));
+    };
+    const auto most = [](glm::ivec3 c) { return c.r > c.g + 60 ? 'r' : c.b > c.g + 60 ? 'b' : 'g'; };
+    CHECK(most(seen(Wrap::repeat, 1.17f)) == 'r');
+    CHECK(most(seen(Wrap::clamp, 1.17f)) == 'b');
+    CHECK(most(seen(Wrap::mirror, 1.17f)) == 'b');
+    CHECK(most(seen(Wrap::repeat, -.17f)) == 'b');
+    CHECK(most(seen(Wrap::clamp, -.17f)) == 'r');
+    CHECK(most(seen(Wrap::mirror, -.17f)) == 'r');
+    CHECK(most(seen(Wrap::mirror, 2.5f)) == 'g');
+}
+
 TEST_CASE("what shines is bright in the dark, in its texture's colours") {
     Seen night;
     night.look.sunColor = night.look.skyColor = night.look.groundColor = glm::vec3(0);
@@ -113,6 +132,42 @@ TEST_CASE("what shines is bright in the dark, in its texture's colours") {
     CHECK(blue.b > blue.r + 60);
     m.emissive *= 8;
     CHECK(middle(squares({{0, m, kRedGreenBlue}}), night).b > blue.b);
+}
+
+TEST_CASE("a smooth metal mirrors the sky by its colour, a rough one scatters it, and a texture says where which is") {
+    // The eye looks at the wall from above, which mirrors the horizon's land, or from below, which mirrors the sky.
+    const auto mirrored = [](const Material& m, float y, const std::vector<uint8_t>& texels = {}) {
+        Drawn drawn;
+        drawn.inputs.look.shadows = false;
+        drawn.inputs.look.sunDirection = {0, 0.2f, -1};  // behind the wall
+        drawn.inputs.look.background = {0.05f, 0.1f, 0.9f};
+        drawn.inputs.look.groundColor = {0.4f, 0.2f, 0.02f};
+        drawn.inputs.camera = {.eye = {0, y, 3}, .target = {0, 0, 0}};
+        REQUIRE(drawn.renderer().setSurface(0, squares({{0, m, texels}}), glm::mat4(1)));
+        const std::vector<uint8_t> pixels = drawn.frame(64, 64);
+        const size_t at = (32 * 64 + 32) * 4;
+        return glm::ivec3(pixels[at], pixels[at + 1], pixels[at + 2]);
+    };
+    Material m;
+    m.baseColor = {0.9f, 0.9f, 0.88f, 1};
+    m.metallic = 1;
+    m.roughness = 0;
+    const glm::ivec3 sky = mirrored(m, -3), land = mirrored(m, 3);
+    CHECK(sky.b > sky.r + 60);
+    CHECK(land.r > land.b + 30);
+    m.baseColor = {1, 0.1f, 0.1f, 1};  // takes the sky's blue away
+    const glm::ivec3 red = mirrored(m, -3);
+    CHECK(red.b < sky.b - 60);
+    // Rough, what it shows depends little on where one looks from.
+    m.baseColor = {0.9f, 0.9f, 0.88f, 1};
+    m.roughness = 1;
+    const glm::ivec3 high = mirrored(m, 3), low = mirrored(m, -3);
+    CHECK(glm::length(glm::vec3(high - low)) < 0.5f * glm::length(glm::vec3(land - sky)));
+    // Where the texture's blue is 0 there is no metal.
+    m.roughness = 0.05f;
+    m.roughnessImage = 0;
+    const glm::ivec3 none = mirrored(m, -3, {0, 255, 0, 255}), all = mirrored(m, -3, {0, 255, 255, 255});
+    CHECK(all.b > none.b + 20);
 }
 
 TEST_CASE("through glass one sees what lies behind, the nearer pane in front, from either side") {

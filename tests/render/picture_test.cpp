@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <numeric>
 
 #include "runtime/render/renderer.hpp"
 #include "tests/emit/fixture.hpp"
@@ -403,7 +404,7 @@ TEST_CASE("the ground reaches the horizon, lies behind what stands on it and tak
     studio.inputs.growth = {};
     studio.inputs.camera = {.eye = {0.8f, 0.9f, 3.6f}, .target = {0, 0.9f, 0}};
     const std::vector<uint8_t> bare = studio.draw(160, 90);
-    studio.inputs.ground.drawn = true;
+    studio.inputs.ground.kind = GroundKind::meadow;
     studio.inputs.ground.height = -0.3f;
     const std::vector<uint8_t> on = studio.draw(160, 90);
     auto same = [&](size_t x, size_t y) {
@@ -424,9 +425,42 @@ TEST_CASE("the ground reaches the horizon, lies behind what stands on it and tak
     CHECK(share(shaded, dark) > share(lit, dark) + 0.03);
 }
 
+TEST_CASE("a studio's floor takes shadows and goes over into the horizon without an edge") {
+    Studio studio;
+    studio.inputs.growth = {};
+    studio.inputs.ground.kind = GroundKind::studio;
+    studio.inputs.camera = {.eye = {0, 2.5f, -6}, .target = {0, 1.5f, -1}};
+    const std::vector<uint8_t> shaded = studio.draw(160, 90);
+    const auto at = [&](size_t x, size_t y) { return &shaded[(y * 160 + x) * 4]; };
+    for (size_t y = 1; y < 90; ++y)
+        for (size_t c = 0; c < 3; ++c) CHECK(std::abs(int(at(2, y)[c]) - int(at(2, y - 1)[c])) < 8);
+    // Its colours are those of the light.
+    CHECK(std::abs(int(at(2, 85)[0]) - int(at(2, 85)[1])) < 24);
+    studio.inputs.look.shadows = false;
+    const std::vector<uint8_t> lit = studio.draw(160, 90);
+    const auto sum = [](const std::vector<uint8_t>& picture) {
+        return std::accumulate(picture.begin(), picture.end(), 0.0);
+    };
+    CHECK(sum(shaded) < 0.995 * sum(lit));
+}
+
+TEST_CASE("by night what is dark is grey, and what is lit keeps its colours") {
+    Studio studio;
+    const auto colourful = [&] {
+        const std::vector<uint8_t> rgba = studio.draw(160, 90);
+        return share(rgba, [](int r, int g, int b) { return g > 1.6 * r && g > 1.6 * b; });
+    };
+    const double day = colourful();
+    studio.inputs.look.sunColor *= 0.12f;
+    studio.inputs.look.skyColor *= 0.2f;
+    studio.inputs.look.groundColor *= 0.2f;
+    CHECK(day > 0.01);
+    CHECK(colourful() < 0.25 * day);
+}
+
 TEST_CASE("a quick picture looks like the settled one, which comes back to the bit") {
     Studio studio;
-    studio.inputs.ground.drawn = true;
+    studio.inputs.ground.kind = GroundKind::meadow;
     const std::vector<uint8_t> settled = studio.draw(160, 90);
     studio.inputs.look.quick = true;
     const std::vector<uint8_t> quick = studio.draw(160, 90);
@@ -473,7 +507,7 @@ TEST_CASE("triangles that the meadow can't reach are drawn without it, to the sa
         REQUIRE(studio.renderer->setSurface(0, data, turned ? lying : glm::mat4(1)));
         studio.renderer->placeSurface(0, glm::mat4(1));
         bare = studio.draw(160, 90);
-        studio.inputs.ground.drawn = true;
+        studio.inputs.ground.kind = GroundKind::meadow;
         pictures[turned] = studio.draw(160, 90);
     }
     const size_t floor = (80 * 160 + 76) * 4, upper = (50 * 160 + 76) * 4;

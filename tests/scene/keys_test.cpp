@@ -30,6 +30,19 @@ struct Read {
 
 }  // namespace
 
+TEST_CASE("a scene may hold graphs alone, and is written as it was read") {
+    const ScratchFolder folder;
+    const Read scene(folder, "{\"graphs\": [\"a.graph\", \"b.graph\"]}\n");
+    REQUIRE_MESSAGE(scene.read, scene.error);
+    REQUIRE(scene.file.graphs.size() == 2);
+    CHECK(scene.file.graphs[1].file.ends_with("b.graph"));
+    const Read again(folder, writeSceneText(folder.file("scene.json"), scene.file));
+    REQUIRE_MESSAGE(again.read, again.error);
+    CHECK(again.file.graphs == scene.file.graphs);
+    for (const char* wrong : {"{\"graphs\": []}", "{\"graphs\": \"a.graph\"}", "{\"graphs\": [3]}"})
+        CHECK_FALSE(Read(folder, wrong).read);
+}
+
 TEST_CASE("wind, palettes and exact fields are read, and written as they were read") {
     const ScratchFolder folder;
     const Read scene(folder,
@@ -55,6 +68,25 @@ TEST_CASE("wind, palettes and exact fields are read, and written as they were re
     CHECK(look.gusts == .25f);
 }
 
+TEST_CASE("a studio's floor is read and written; without a kind the ground is a meadow") {
+    const ScratchFolder folder;
+    const Read studio(folder, sceneWith(",\n \"ground\": {\"level\": 2, \"kind\": \"studio\"}"));
+    REQUIRE_MESSAGE(studio.read, studio.error);
+    const Read again(folder, writeSceneText(folder.file("scene.json"), studio.file));
+    REQUIRE_MESSAGE(again.read, again.error);
+    const Read meadow(folder, sceneWith(",\n \"ground\": {\"level\": 2}"));
+    const Read none(folder, sceneWith(""));
+    const auto groundOf = [](const Read& scene) {
+        EspLook look{};
+        scene.file.applyLook(look);
+        return look.ground;
+    };
+    CHECK(groundOf(studio) == ESP_GROUND_STUDIO);
+    CHECK(groundOf(again) == ESP_GROUND_STUDIO);
+    CHECK(groundOf(meadow) == ESP_GROUND_MEADOW);
+    CHECK(groundOf(none) == ESP_GROUND_NONE);
+}
+
 TEST_CASE("mistakes in them are refused by line and key") {
     const ScratchFolder folder;
     const std::pair<std::string, const char*> wrong[] = {
@@ -63,6 +95,9 @@ TEST_CASE("mistakes in them are refused by line and key") {
         {sceneWith(",\n \"wind\": {\"gusts\": 2}"), "gusts"},
         {sceneWith(",\n \"wind\": {\"speed\": 2}"), "speed"},
         {sceneWith(",\n \"pieces\": 7"), ":3:"},
+        {sceneWith(",\n \"ground\": {\"level\": 0, \"kind\": \"sea\"}"), "studio"},
+        {sceneWith(",\n \"ground\": {\"level\": 0, \"kind\": \"none\"}"), "studio"},
+        {sceneWith(",\n \"ground\": {\"level\": 0, \"kind\": 1}"), ":3:"},
         {sceneWith("", ", \"fields\": {\"f\": {\"exact\": 1}}"), "exact"}};
     for (const auto& [text, why] : wrong) {
         const Read scene(folder, text);

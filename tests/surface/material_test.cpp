@@ -37,17 +37,19 @@ SurfaceData throughFile(const Material& material) {
 
 }  // namespace
 
-TEST_CASE("a surface's file keeps emission, transparency and where textures are looked up") {
+TEST_CASE("a surface's file keeps emission, transparency, metal and where textures are looked up") {
     Material m;
     m.baseColor = {0.25f, 0.5f, 0.75f, 0.5f};
     m.emissive = {6, 1.5f, 0};
     m.transmission = 0.75f;
     m.blended = true;
-    m.baseColorImage = m.normalImage = m.emissiveImage = 0;
+    m.baseColorImage = m.normalImage = m.emissiveImage = m.roughnessImage = 0;
+    m.metallic = 0.625f;
     m.normalScale = 0.5f;
     m.baseColorMap = {.offset = {0.125f, -3}, .scale = {2, -4}, .rotation = 0.5f};
     m.normalMap = {.set = 1};
     m.emissiveMap = {.set = 1, .rotation = -1.25f};
+    m.roughnessMap = {.offset = {0, 0.25f}, .scale = {3, 1}};
     const SurfaceData surface = throughFile(m);
     const Material& read = surface.materials.at(0);
     CHECK(read.baseColor == m.baseColor);
@@ -60,6 +62,9 @@ TEST_CASE("a surface's file keeps emission, transparency and where textures are 
     CHECK(read.baseColorMap == m.baseColorMap);
     CHECK(read.normalMap == m.normalMap);
     CHECK(read.emissiveMap == m.emissiveMap);
+    CHECK(read.metallic == m.metallic);
+    CHECK(read.roughnessImage == 0);
+    CHECK(read.roughnessMap == m.roughnessMap);
     for (const DrawVertex& v : surface.vertices) CHECK(glm::length(v.otherUv - v.uv * 2.0f) < 1e-3f);
 
     Material dim;
@@ -70,6 +75,8 @@ TEST_CASE("a surface's file keeps emission, transparency and where textures are 
     CHECK(plain.materials.at(0).emissiveImage == -1);
     CHECK(plain.materials.at(0).blended);
     CHECK(plain.materials.at(0).transmission == 0);
+    CHECK(plain.materials.at(0).metallic == 0);
+    CHECK(plain.materials.at(0).roughnessImage == -1);
     CHECK(plain.materials.at(0).normalMap == TextureMap());
     for (const DrawVertex& v : plain.vertices)
         CHECK(v.otherUv == glm::vec2(0));  // isn't kept where nothing asks for it

@@ -44,6 +44,8 @@ SurfaceData sample() {
     textured.baseColorImage = 0;
     textured.alphaCutoff = 0.5f;
     textured.doubleSided = true;
+    textured.wrapU = Wrap::clamp;
+    textured.wrapV = Wrap::mirror;
     model.materials = {plain, textured};
     for (size_t t = 0; t < model.indices.size() / 3; ++t) model.triangleMaterial.push_back(t % 3 == 0);
     BakeOptions options;
@@ -91,6 +93,12 @@ TEST_CASE("what is written is read: the walk's data bit for bit, the mesh within
     CHECK(b.materials[1].baseColorImage == 0);
     CHECK(b.materials[1].alphaCutoff == 0.5f);
     CHECK(b.materials[1].doubleSided);
+    CHECK(b.materials[1].wrapU == Wrap::clamp);
+    CHECK(b.materials[1].wrapV == Wrap::mirror);
+    CHECK(b.materials[0].wrapU == Wrap::repeat);
+    const std::vector<std::byte> file = bytesOf(folder.file("a.glb"));
+    const std::string text(reinterpret_cast<const char*>(file.data()), file.size());
+    CHECK(text.find(R"("wrapS":33071,"wrapT":33648)") != text.npos);  // as other viewers read it
     REQUIRE(b.images.size() == 1);
     CHECK(b.images[0].width == 4);
     CHECK(sameBits(a.images[0].rgba, b.images[0].rgba));

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <barrier>
+#include <chrono>
 #include <cstring>
 #include <string>
 #include <thread>
@@ -37,6 +38,7 @@ struct Made {
     std::string failure;  // the first call that failed, and why
     uint64_t first = 0, painted = 0, roofs = 0;
     size_t frozen = 0, triangles = 0;
+    uint32_t came = 0;
     bool operator==(const Made&) const = default;
 };
 
@@ -55,6 +57,7 @@ class Life {
         draw();
         keep();
         done("trim", espTrim(context_));
+        stream();
         return made_;
     }
 
@@ -137,6 +140,50 @@ class Life {
         made_.triangles = size_t(triangles.indexCount);
     }
 
+    // Surfaces come and go beside the frames, loads are given up, and one is on its way when the context ends.
+    void stream() {
+        constexpr float kApart = 5;
+        EspTransform place = espIdentity();
+        EspSurfaceDef surface{};
+        surface.structSize = sizeof surface;
+        surface.name = ESPALIER_SQUARE;
+        surface.place = &place;
+        std::vector<EspSurface> squares(6);
+        EspStreamedDef streamed{};
+        streamed.structSize = sizeof streamed;
+        streamed.surface = &surface;
+        streamed.boundsMax[0] = streamed.boundsMax[1] = 1;
+        for (size_t i = 0; i < squares.size(); ++i) {
+            place.rows[0][3] = kApart * float(i + 2);
+            done("add streamed", espAddStreamed(context_, &streamed, &squares[i]));
+        }
+        EspStreamingDef streaming = esp::defaults<EspStreamingDef>();
+        streaming.leastSize = 0;
+        EspStreamedInfo first{};
+        first.structSize = sizeof first;
+        for (int frame = 0; frame < 400; ++frame) {
+            streaming.eye[0] = kApart * float(2 + frame / 8 % 6);
+            if (first.bytes > 0) streaming.deviceBytes = first.bytes * 5 / 2;
+            done("set streaming", espSetStreaming(context_, &streaming));
+            EspLoad load{};
+            if (frame % 40 == 0) done("begin", espBeginLoad(context_, &surface, &load));
+            done("update", espUpdate(context_));
+            if (load.id) done("end", espEndLoad(context_, load));
+            done("streamed", espStreamedInfo(context_, squares.front(), &first));
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        streaming.eye[0] = kApart * 2;
+        done("set streaming", espSetStreaming(context_, &streaming));
+        for (int frame = 0; frame < 10'000 && first.state != ESP_STREAMED_STANDS; ++frame) {
+            done("update", espUpdate(context_));
+            done("streamed", espStreamedInfo(context_, squares.front(), &first));
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        made_.came = first.state == ESP_STREAMED_STANDS;
+        EspLoad last{};
+        done("begin", espBeginLoad(context_, &surface, &last));
+    }
+
     EspContext* context_ = nullptr;
     EspSurface surface_{};
     EspGrammar ivy_{};
@@ -151,6 +198,7 @@ TEST_CASE("two contexts in two threads make what each makes alone") {
         CAPTURE(shaders);
         const Made alone = Life().live(shaders);
         REQUIRE_MESSAGE(alone.failure.empty(), alone.failure);
+        CHECK(alone.came == 1);
         CHECK(alone.first != alone.painted);
         CHECK(alone.roofs != 0);
         std::array<Made, 2> made;

@@ -4,7 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/tools/program.hpp"
+#include "tests/tools/golden.hpp"
+#include "tools/scene/picture.hpp"
 
 namespace {
 
@@ -14,20 +15,6 @@ nlohmann::json statsOf(const std::string& path) {
 
 std::string frame(const Folder& folder, const char* out) {
     return folder.file(out) + "/frame_0000.png";
-}
-
-// Against tests/goldens/NAME.png, as anybody's test of frames would.
-void checkGolden(const std::string& name, const std::string& picture) {
-    const std::string golden = "tests/goldens/" + name + ".png", difference = "out/" + name + "_difference.png";
-    const char* update = std::getenv("ESPALIER_UPDATE_GOLDENS");
-    if (update && *update) {
-        std::filesystem::copy_file(picture, golden, std::filesystem::copy_options::overwrite_existing);
-        MESSAGE("written anew: ", golden);
-    }
-    REQUIRE(std::filesystem::exists(golden));
-    std::filesystem::create_directories("out");
-    const Ran alike = run(program("espalier-compare") + " " + golden + " " + picture + " --diff " + difference);
-    CHECK_MESSAGE(alike.code == 0, alike.output, " see ", difference);
 }
 
 }  // namespace
@@ -88,6 +75,35 @@ TEST_CASE("a large picture, in which leaves lie at one depth, is the same in eve
     REQUIRE(run("env LP_NUM_THREADS=1 " + capture + folder.file("a")).code == 0);
     REQUIRE(run(capture + folder.file("b")).code == 0);
     CHECK(readAll(frame(folder, "a")) == readAll(frame(folder, "b")));
+}
+
+TEST_CASE("a smooth frame is as bright as a plain one, has softer edges, and is the same in every run") {
+    const Folder folder;
+    const std::string capture =
+        program("espalier-capture") + " " + content("guided.json") + " --size 160x90 -o " + folder.file("");
+    REQUIRE(run(capture + "plain").code == 0);
+    REQUIRE(run(capture + "smooth --smooth 8").code == 0);
+    REQUIRE(run(capture + "again --smooth 8").code == 0);
+    CHECK(readAll(frame(folder, "smooth")) == readAll(frame(folder, "again")));
+    struct Look {
+        double brightness = 0, steps = 0;
+    };
+    const auto lookOf = [&](const char* out) {
+        espalier::scene::ColourPicture picture;
+        std::string error;
+        REQUIRE_MESSAGE(readColour(frame(folder, out), picture, error), error);
+        Look look;
+        for (size_t i = 4; i < picture.rgba.size(); ++i) {
+            look.brightness += picture.rgba[i];
+            look.steps += std::abs(int(picture.rgba[i]) - int(picture.rgba[i - 4]));
+        }
+        return look;
+    };
+    const Look plain = lookOf("plain"), smooth = lookOf("smooth");
+    CHECK(smooth.brightness == doctest::Approx(plain.brightness).epsilon(0.01));
+    CHECK(smooth.steps < 0.95 * plain.steps);
+    CHECK(run(capture + "plain --smooth 8 --moving").code == 2);
+    CHECK(run(capture + "plain --smooth 0").code == 2);
 }
 
 TEST_CASE("another seed grows another plant, more of them grow more, and a mask that is black grows none") {

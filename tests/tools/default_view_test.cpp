@@ -1,5 +1,5 @@
-// What a model on its own looks like at first sight: it stands on a meadow, all of it is seen, wherever its origin
-// lies.
+// What a model on its own looks like at first sight: it stands on a studio's floor, or a meadow if one is asked for;
+// all of it is seen, wherever its origin lies; its plants stand in the ground.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -94,7 +94,7 @@ TEST_CASE("a flat model lies above the meadow, and no grass stands on its floor"
     for (const std::string& model :
          {box("-2 0 -2", "2 0.04 2", true), box("-0.2 0 -0.2", "0.2 0.004 0.2", true), sheet}) {
         INFO(model);
-        const double onMeadow = share(views.of(views.write("flat.obj", model), "flat"), red);
+        const double onMeadow = share(views.of(views.write("flat.obj", model), "flat", " --ground meadow"), red);
         const std::string scene = views.alone("flat.surface.glb");
         const double alone = share(views.shown(scene, "alone", ""), red);
         CHECK(onMeadow > .05);
@@ -112,6 +112,30 @@ TEST_CASE("a flat model lies above the meadow, and no grass stands on its floor"
         };
         CHECK(lower(bridge) > .9 * lower(views.shown(scene, "bridge_alone", "")));
     }
+}
+
+TEST_CASE("a model stands on a neutral floor unless it is to stand on a meadow") {
+    Views views;
+    const auto green = [](int r, int g, int b) { return g > 20 + b && 10 * g > 9 * r; };
+    const std::string model = views.write("box.obj", box("-1 0 -1", "1 2 1", true));
+    CHECK(share(views.of(model, "box"), green) < .02);
+    CHECK(share(views.of(model, "box", " --ground meadow"), green) > .3);
+}
+
+TEST_CASE("few plants stand around a slim model") {
+    Views views;
+    const auto seeds = [&](const std::string& high) {
+        const std::string model = views.write("tower.obj", box("-1 0 -1", "1 " + high + " 1", true));
+        const std::string stats = views.write("stats.json", "");
+        views.of(model, "tower", " --stats " + stats);
+        const std::string text = readAll(stats), key = "\"seeds\":";
+        const size_t at = text.find(key);
+        REQUIRE(at != std::string::npos);
+        return std::atoi(text.c_str() + at + key.size());
+    };
+    CHECK(seeds("2") == 16);
+    CHECK(seeds("6") == 6);
+    CHECK(seeds("40") == 3);
 }
 
 TEST_CASE("the eye stands to a model as to the same one elsewhere") {

@@ -229,10 +229,25 @@ void stripSkins(json& root) {
     *skins = std::move(kept);
 }
 
+// Of samplers only the wrap modes count.
+void stripSamplers(json& root) {
+    auto samplers = root.find("samplers");
+    if (samplers == root.end()) return;
+    json kept = json::array();
+    if (samplers->is_array())
+        for (const json& sampler : *samplers) {
+            json& modes = kept.emplace_back(json::object());
+            for (const char* key : {"wrapS", "wrapT"})
+                if (const json* mode = member(sampler, key); mode && mode->is_number_integer()) modes[key] = *mode;
+        }
+    *samplers = std::move(kept);
+}
+
 // Takes out of the text what tinygltf would load by itself.
 void strip(json& root) {
     stripSkins(root);
-    for (const char* key : {"buffers", "images", "animations", "cameras", "samplers", "extras"}) root.erase(key);
+    stripSamplers(root);
+    for (const char* key : {"buffers", "images", "animations", "cameras", "extras"}) root.erase(key);
     auto meshes = root.find("meshes");
     if (meshes == root.end() || !meshes->is_array()) return;
     for (json& mesh : *meshes) {

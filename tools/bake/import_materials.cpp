@@ -74,6 +74,9 @@ class Reader {
         take(pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord, pbr.baseColorTexture.extensions,
              m_.baseColorImage, m_.baseColorMap);
         m_.roughness = std::clamp(finite(pbr.roughnessFactor, 1), 0.0f, 1.0f);
+        m_.metallic = std::clamp(finite(pbr.metallicFactor, 1), 0.0f, 1.0f);
+        const auto& rough = pbr.metallicRoughnessTexture;
+        take(rough.index, rough.texCoord, rough.extensions, m_.roughnessImage, m_.roughnessMap);
     }
 
     // What is diffuse there is the base colour of what is no metal; metals have none, and shine in their specular one.
@@ -96,7 +99,7 @@ class Reader {
         const float diffuse = std::max({m_.baseColor.r, m_.baseColor.g, m_.baseColor.b});
         const float shine = std::max({specular.r, specular.g, specular.b});
         if (diffuse < kDarkDiffuse && shine > diffuse && m_.baseColorImage < 0)
-            m_.baseColor = glm::vec4(specular, m_.baseColor.a);
+            m_.baseColor = glm::vec4(specular, m_.baseColor.a), m_.metallic = 1;
     }
 
     void readEmission() {
@@ -126,6 +129,7 @@ class Reader {
     void take(int texture, int texCoord, const tinygltf::ExtensionMap& extensions, int& image, TextureMap& map) {
         image = textures_.find(texture);
         if (image < 0) return;
+        if (maps_.empty()) takeWrap(document_.gltf.textures[size_t(texture)].sampler);
         if (const auto* moved = extensionOf(extensions, "KHR_texture_transform")) {
             map.offset = {number(*moved, "offset", 0, 0), number(*moved, "offset", 1, 0)};
             map.scale = {number(*moved, "scale", 0, 1), number(*moved, "scale", 1, 1)};
@@ -138,6 +142,18 @@ class Reader {
         }
         map.set = uint32_t(texCoord);
         maps_.push_back(&map);
+    }
+
+    // All pictures of a material are wrapped as its first is.
+    void takeWrap(int sampler) {
+        if (sampler < 0 || size_t(sampler) >= document_.gltf.samplers.size()) return;
+        const auto wrapOf = [](int named) {
+            return named == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE     ? Wrap::clamp
+                   : named == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror
+                                                                    : Wrap::repeat;
+        };
+        m_.wrapU = wrapOf(document_.gltf.samplers[size_t(sampler)].wrapS);
+        m_.wrapV = wrapOf(document_.gltf.samplers[size_t(sampler)].wrapT);
     }
 
     // A map that all textures share is applied to the vertices. Otherwise these keep two sets as they are.

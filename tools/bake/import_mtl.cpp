@@ -39,6 +39,7 @@ std::vector<std::string> readingsOf(std::string_view text) {
 struct TextureStatement {
     UvScaling scaling;
     float bump = 1;
+    bool clamped = false;
     std::string_view name;
     std::string_view unknown;  // from an option on that we don't know: it may be a name
 };
@@ -74,6 +75,7 @@ TextureStatement readTexture(std::string_view line) {
         if (!known && out.unknown.empty()) out.unknown = trimmed(line);
         double values[3] = {};
         int count = 0;
+        std::string_view stated = rest;
         // The last word is the file's, be it a number.
         for (std::string_view ahead = rest; count < (known ? option->values : 1); ++count) {
             const std::string_view value = nextWord(ahead);
@@ -84,6 +86,7 @@ TextureStatement readTexture(std::string_view line) {
         if (word == "-s" && count > 0) out.scaling.scale = {values[0], count > 1 ? values[1] : 1};
         if (word == "-o" && count > 0) out.scaling.offset = {values[0], count > 1 ? values[1] : 0};
         if (word == "-bm" && count > 0) out.bump = float(values[0]);
+        if (word == "-clamp" && count > 0) out.clamped = smallLetters(nextWord(stated)) == "on";
         line = rest;
     }
     out.name = trimmed(line);
@@ -117,6 +120,7 @@ class MaterialLibrary::File {
         bool dissolved = false;   // `d`
         double transparency = 0;  // `Tr`
         bool normals = false;     // by `norm`, not by `bump`
+        bool pictured = false;    // by any picture; all are wrapped as the first is
         int cutOut = -1;          // the picture of map_d
         int cutOutLine = 0;
         std::optional<UvScaling> ofColour, ofCutOut, ofNormals, ofEmission;
@@ -180,6 +184,8 @@ class MaterialLibrary::File {
     Found picture(std::string_view line, int number, std::optional<UvScaling>& scaling) {
         const TextureStatement statement = readTexture(line);
         scaling = statement.scaling;
+        if (statement.clamped && !stated_.pictured) material().wrapU = material().wrapV = Wrap::clamp;
+        stated_.pictured = true;
         std::vector<std::string> names = readingsOf(statement.name);
         for (std::string& name : readingsOf(statement.unknown)) names.push_back(std::move(name));
         return {to_.picture(folder_, names, [&](std::string message) { warn(number, std::move(message)); }),

@@ -267,7 +267,7 @@ void frameCases(Bench& bench) {
 
     Film film{**device, **renderer, {}, bench.options().repeats};
     film.inputs.camera = {.eye = {4.6f, 1.75f, 10.3f}, .target = {-0.1f, 1.5f, 1.3f}, .fovY = 0.663f};
-    film.inputs.ground.drawn = true;
+    film.inputs.ground.kind = GroundKind::meadow;
     film.inputs.ground.height = -0.06f;
     const double bare = film.cost(kFull, 0).median;
     film.coarse = true;

@@ -25,7 +25,7 @@ int measureAsAsked(int argc, char** argv) {
     app.set_version_flag("--version", ESPALIER_VERSION);
     app.add_option("--filter", options.filter,
                    "only cases whose name contains this: growth/, edit/, emit/, frame/, render/, paint/, bake/, "
-                   "surface/, contact/, move/, roof/, pattern/, field/");
+                   "surface/, contact/, move/, roof/, pattern/, field/, load/, graph/");
     app.add_option("--csv", csv, "also write the rows to this file");
     app.add_option("--data", options.dataFolder, "folder of further models")->capture_default_str();
     app.add_option("--modules", options.modulesFolder,
@@ -42,6 +42,7 @@ int measureAsAsked(int argc, char** argv) {
     growthCases(bench);
     fieldCases(bench);
     patternCases(bench);
+    graphCases(bench);
     editCases(bench);
     emitCases(bench);
     exportCases(bench);
@@ -53,6 +54,7 @@ int measureAsAsked(int argc, char** argv) {
     moveCases(bench);
     paintCases(bench);
     surfaceCases(bench);
+    loadCases(bench);
     lodCases(bench);
     roofStructureCases(bench);
     roofGrowthCases(bench);

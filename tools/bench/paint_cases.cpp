@@ -2,6 +2,7 @@
 // it.
 #include <algorithm>
 #include <array>
+#include <chrono>
 
 #include "runtime/paint/painter.hpp"
 #include "runtime/surface/gpu_surface.hpp"
@@ -147,11 +148,49 @@ void smoothCase(Bench& bench, Device& device, Painter& painter, const SurfaceDat
                "of a dab", device.milliseconds("paint smooth")});
 }
 
+// What a stroke's end costs: its record is closed, and copied to the host with what was painted.
+void keepCase(Bench& bench, Device& device, Painter& painter, const SurfaceData& data, const std::string& name) {
+    if (!bench.wants(name)) return;
+    const float radius = 1;
+    const SurfaceLevelData& level = data.levels.front();
+    std::vector<float> kept(size_t(level.size) * level.size);
+    Result<GpuSurface> surface = GpuSurface::create(device, data);
+    Result<Buffer> layer = makeBuffer(device, "bench layer", kept);
+    if (!surface || !layer) return bench.skip(name, "no room on the device");
+    const Canvas canvas{&*layer, surface->ref(), 0, {}};
+    const BlockBounds bounds(level);
+    std::vector<double> closing, keeping;
+    size_t touched = 0;
+    for (int i = 0; i < bench.options().repeats * 3; ++i) {
+        BlockRecord record;
+        for (int k = 0; k < 8; ++k) {
+            const DabRecord dab{{-1.4f + .25f * float(k), 1.2f, .36f}, 1, {0, 0, 1}, 0};
+            BrushRecord brush = softBrush(radius);
+            brush.target = float(i % 2);
+            PaintJob job{canvas, &record, {}};
+            bounds.near(dab.position, radius, job.blocks);
+            (void)painter.dabs({&job, 1}, brush, {&dab, 1});
+        }
+        (void)device.wait(device.submitted());
+        const auto before = std::chrono::steady_clock::now();
+        (void)painter.close(canvas, record);
+        (void)device.wait(device.submitted());
+        const auto closed = std::chrono::steady_clock::now();
+        (void)painter.keep(canvas, record, kept);
+        const auto done = std::chrono::steady_clock::now();
+        touched = record.blocks().size();
+        closing.push_back(std::chrono::duration<double, std::milli>(closed - before).count());
+        keeping.push_back(std::chrono::duration<double, std::milli>(done - closed).count());
+    }
+    bench.add({name, std::to_string(touched * kBlockTexels) + " texels to the host, wall clock", "ms", median(keeping),
+               "closing the stroke's record", median(closing)});
+}
+
 }  // namespace
 
 void paintCases(Bench& bench) {
     if (std::ranges::none_of(
-            std::array{"paint/dab-25cm", "paint/dab-100cm", "paint/smooth-first", "paint/smooth-100cm"},
+            std::array{"paint/dab-25cm", "paint/dab-100cm", "paint/smooth-first", "paint/smooth-100cm", "paint/keep"},
             [&](const char* name) { return bench.wants(name); }))
         return;
     const std::string path = bench.options().contentFolder + "/ruin.surface.glb";
@@ -165,6 +204,7 @@ void paintCases(Bench& bench) {
     dabCase(bench, **device, **painter, *data, 1, "paint/dab-100cm");
     smoothCase(bench, **device, **painter, *data, 1, "paint/smooth-first");
     smoothCase(bench, **device, **painter, *data, 8, "paint/smooth-100cm");
+    keepCase(bench, **device, **painter, *data, "paint/keep");
 }
 
 }  // namespace espalier

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -16,11 +17,14 @@
 #include <utility>
 
 #include "plugin_api/espalier.hpp"
+#include "tools/baking/graph_bakes.hpp"
+#include "tools/capture/figures.hpp"
 #include "tools/command_line.hpp"
 #include "tools/document/document.hpp"
 #include "tools/document/layer_files.hpp"
 #include "tools/document/run.hpp"
 #include "tools/scene/daylight.hpp"
+#include "tools/scene/jitter.hpp"
 #include "tools/scene/layers.hpp"
 #include "tools/scene/moving.hpp"
 #include "tools/scene/picture.hpp"
@@ -48,14 +52,15 @@ struct Options {
     uint32_t frames = 1;
     uint32_t width = 1280, height = 720;
     std::optional<float> hour;
+    std::optional<std::string> ground;
     double clock = 0;
     std::string size, folder = "out", stats, view = "shaded", walk, camera, cache = cacheFolder(), replay;
-    uint32_t every = 1;
+    uint32_t every = 1, frame = 0, smooth = 1;
     long long seed = -1;
     uint32_t maxNodes = esp::defaults<EspGrowDef>().maxNodes;
     float leafCap = 0;
     bool sized = false, aimed = false;  // --size, --camera say something, be it nothing
-    bool shaders = false, validation = false, moving = false;
+    bool shaders = false, validation = false, moving = false, still = false;
 };
 
 void warn(const std::string& message) {
@@ -76,7 +81,11 @@ int refuse(const std::string& message) {
 void addOptions(CLI::App& app, Options& options) {
     app.set_version_flag("--version", ESPALIER_VERSION);
     app.add_option("FILE", options.request.file,
-                   "a scene (SCENE.json), a project's folder or what espalier-bake wrote (SURFACE.glb)");
+                   "a scene (SCENE.json), a project's folder, a procedural graph (.graph) or what espalier-bake wrote "
+                   "(SURFACE.glb)");
+    app.add_option("--frame", options.frame, "that graphs show in the first picture; each picture is a frame later")
+        ->check(CLI::Range(0u, 16000000u));
+    app.add_flag("--still", options.still, "graphs show the same frame in all pictures");
     const auto replay = app.add_option(
         "--replay", options.replay,
         "a recorded run: opens what it was recorded on (or FILE), does what was done and writes its frames");
@@ -90,7 +99,8 @@ void addOptions(CLI::App& app, Options& options) {
     frames->excludes(replay);
     app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels (default 1280x720, of a run its own)");
     app.add_option("-o,--out", options.folder, "folder for frame_0000.png ...")->capture_default_str();
-    app.add_option("--stats", options.stats, "writes counts, times, bytes and the growth's hash as JSON");
+    app.add_option("--stats", options.stats,
+                   "writes counts, times, bytes, the growth's hash, the device and hashes of all inputs as JSON");
     app.add_option("--seed", options.seed, "the seeds' random numbers are N, N + 1 ... instead of the scene's")
         ->check(CLI::Range(0ll, 4294967295ll));
     app.add_option("--times", options.request.times, "plants each seed so many times, with other random numbers")
@@ -113,6 +123,9 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_option("--hour", options.hour, "light of this time of the day, 0 to 24, instead of the scene's")
         ->check(CLI::Range(0.0, 24.0))
         ->excludes(replay);
+    app.add_option("--ground", options.ground, "none, meadow or studio under it all, instead of what the scene says")
+        ->check(CLI::IsMember({"none", "meadow", "studio"}))
+        ->excludes(replay);
     app.add_option("--clock", options.clock,
                    "seconds, of the scene's wind in the first frame; each frame is a thirtieth of a second later")
         ->check(CLI::Range(0.0, 1e9));
@@ -126,8 +139,14 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_option("--cache", options.cache,
                    "folder that keeps compiled grammars and which devices have passed the self-check (default: in the "
                    "user's cache)");
-    app.add_flag("--moving", options.moving,
-                 "drawn as a window does on a slow device while its camera moves: coarser, and sooner done");
+    const auto moving =
+        app.add_flag("--moving", options.moving,
+                     "drawn as a window does on a slow device while its camera moves: coarser, and sooner done");
+    app.add_option("--smooth", options.smooth,
+                   "each frame is the mean of so many pictures, fractions of a pixel apart: smooth leaves and twigs")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 64))
+        ->excludes(moving);
     app.add_flag("--shaders", options.shaders, "growth by shaders on a software device too, not as native code");
     app.add_flag("--validation", options.validation, "with Vulkan's validation layer (also: ESPALIER_VALIDATION=1)");
 }
@@ -163,43 +182,6 @@ bool parseView(const std::string& text, EspLook& look) {
     return named == (colon < text.size());
 }
 
-// Of a town only.
-std::string roofsJson(const EspRoofStats& roofs) {
-    char text[512];
-    std::snprintf(text, sizeof text,
-                  ",\"roofs\":{\"houses\":%u,\"tiles\":%" PRIu64 ",\"clipped\":%" PRIu64
-                  ",\"records\":%u,\"stopped\":%u,\"hash\":\"%016" PRIx64 "\"}",
-                  roofs.houses, roofs.tiles, roofs.clippedTiles, roofs.grids, roofs.stopped, roofs.hash);
-    return roofs.houses > 0 ? text : "";
-}
-
-// Where there are patterns.
-std::string patternsJson(const EspPatternStats& patterns) {
-    char text[256];
-    std::snprintf(text, sizeof text,
-                  ",\"patterns\":{\"seeds\":%u,\"pieces\":%u,\"tried\":%u,\"fallen\":%u,\"waves\":%u,"
-                  "\"hash\":\"%016" PRIx64 "\"}",
-                  patterns.seeds, patterns.pieces, patterns.tried, patterns.fallen, patterns.waves, patterns.hash);
-    return patterns.seeds > 0 ? text : "";
-}
-
-std::string statsJson(const EspStats& stats, const EspRoofStats& roofs, const EspPatternStats& patterns) {
-    char text[2048];
-    std::snprintf(
-        text, sizeof text,
-        "{\"seeds\":%u,\"nodes\":%" PRIu64 ",\"branches\":%u,\"leaves\":%" PRIu64 ",\"polygons\":%" PRIu64
-        ",\"ms\":{\"expand\":%.3f,\"emit\":%.3f,\"draw\":%.3f},"
-        "\"bytes\":{\"nodes\":%" PRIu64 ",\"leaves\":%" PRIu64 ",\"chunks\":%" PRIu64 ",\"surfaces\":%" PRIu64
-        ",\"layers\":%" PRIu64 ",\"total\":%" PRIu64
-        "},\"overflow\":%u,\"cut\":%u,\"stopped\":%u,\"enlarged\":%u,\"validation_messages\":%u,\"hash\":\"%016" PRIx64
-        "\"",
-        stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons, stats.expandMs, stats.emitMs,
-        stats.drawMs, stats.nodeBytes, stats.leafBytes, stats.chunkBytes, stats.surfaceBytes, stats.layerBytes,
-        stats.totalBytes, stats.overflow, stats.cut, stats.stopped, stats.enlarged, stats.validationMessages,
-        stats.hash);
-    return text + roofsJson(roofs) + patternsJson(patterns) + "}\n";
-}
-
 // Where frames go and how they look.
 struct Film {
     EspContext* context;
@@ -209,6 +191,7 @@ struct Film {
     double clock = 0;   // of the first frame
     bool rests = true;  // growth does: shadows that lag make no picture depend on which others are taken
     std::vector<uint8_t> pixels;
+    uint32_t smooth = 1;  // pictures of which a frame is the mean
 
     bool begin(std::string& error) {
         std::error_code code;
@@ -222,11 +205,23 @@ struct Film {
         if (moving) espalier::scene::MovingDetail().apply(shown.look);
         shown.look.shadowsLag = moving && rests;
         shown.look.clock = clock + frame / kFrameRate;
-        if (espDraw(context, &shown) != ESP_OK || espReadPixels(context, pixels.data(), pixels.size()) != ESP_OK) {
+        if (!drawMean(shown)) {
             error = espLastError(context);
             return false;
         }
         return writePng(file(frame), pixels.data(), draw.width, draw.height, error);
+    }
+    bool drawMean(esp::DrawDef& shown) {
+        std::vector<uint32_t> sums(pixels.size(), smooth / 2);
+        const EspCamera still = shown.camera;
+        for (uint32_t i = 0; i < smooth; ++i) {
+            shown.camera = espalier::scene::jittered(still, i, draw.width, draw.height);
+            if (espDraw(context, &shown) != ESP_OK || espReadPixels(context, pixels.data(), pixels.size()) != ESP_OK)
+                return false;
+            for (size_t k = 0; k < pixels.size(); ++k) sums[k] += pixels[k];
+        }
+        for (size_t k = 0; k < pixels.size(); ++k) pixels[k] = uint8_t(sums[k] / smooth);
+        return true;
     }
     std::string file(uint32_t frame) const {
         char name[32];
@@ -240,8 +235,29 @@ struct Film {
     }
 };
 
-bool filmTurn(const Scene& scene, uint32_t frames, Film& film, std::string& error) {
+// At the foot of all surfaces where the scene has no ground of its own.
+void layGround(const Scene& scene, EspContext* context, const std::string& name, EspLook& look) {
+    EspGround ground = ESP_GROUND_NONE;
+    (void)groundNamed(name, ground);
+    EspSurfaceInfo info;
+    float lowest = std::numeric_limits<float>::infinity();
+    for (const auto& surface : scene.surfaces)
+        if (espSurfaceInfo(context, surface.id, &info) == ESP_OK) lowest = std::min(lowest, info.boundsMin[1]);
+    if (!look.ground && std::isfinite(lowest)) look.groundLevel = lowest;
+    look.ground = ground;
+}
+
+bool filmTurn(Scene& scene, const Options& options, Film& film, std::string& error) {
+    const uint32_t frames = options.frames;
     for (uint32_t frame = 0; frame < frames; ++frame) {
+        if (!scene.graphs.empty() && !(options.still && frame > 0)) {
+            if (!setGraphTime(film.context, scene, options.frame + frame, scene.graphRate, error)) return false;
+            if (espUpdate(film.context) != ESP_OK) {
+                error = espLastError(film.context);
+                return false;
+            }
+            if (!espalier::baking::bakeForGraphs(film.context, scene.graphs, error)) return false;
+        }
         film.draw.camera = turned(scene.camera, 2 * 3.14159265f * float(frame) / float(frames));
         if (!film.take(frame, error)) return false;
     }
@@ -338,14 +354,16 @@ int run(Options options) {
     Mistakes mistakes;
     mistakes.tell(document.scene(), "");
     if (espUpdate(made) != ESP_OK) return fail(espLastError(made));
+    if (!espalier::baking::bakeForGraphs(made, document.scene().graphs, error)) return fail(error);
 
     Scene scene = document.scene();
-    Film film{made, esp::DrawDef(), options.folder, options.moving, options.clock, !replays, {}};
+    Film film{made, esp::DrawDef(), options.folder, options.moving, options.clock, !replays, {}, options.smooth};
     film.draw.width = options.width;
     film.draw.height = options.height;
     film.draw.look = scene.look;
     (void)parseView(options.view, film.draw.look);
     if (options.hour) applyDaylight(*options.hour, film.draw.look);
+    if (options.ground) layGround(scene, made, *options.ground, film.draw.look);
     (void)parseCamera(options.camera, scene.camera);
     for (const LayerFile& asked : options.exports)
         if (!readsLayer(document.scene(), asked.layer))
@@ -353,27 +371,28 @@ int run(Options options) {
     if (!film.begin(error)) return fail(error);
     uint32_t taken = replays ? 0 : options.frames;
     if (!(replays ? filmRun(recorded, options.replay, options.every, document, film, mistakes, taken, error)
-                  : filmTurn(scene, options.frames, film, error)))
+                  : filmTurn(scene, options, film, error)))
         return fail(replays ? options.replay + ": " + error : error);
     for (const LayerFile& asked : options.exports)
         if (!exportLayer(document, asked.layer, asked.file, error)) return fail(error);
-    EspStats stats;
-    if (espReadStats(made, &stats) != ESP_OK) return fail(espLastError(made));
-    EspRoofStats roofs;
-    if (espReadRoofStats(made, &roofs) != ESP_OK) return fail(espLastError(made));
+    espalier::capture::Figures figures;
+    if (espReadStats(made, &figures.growth) != ESP_OK || espReadRoofStats(made, &figures.roofs) != ESP_OK ||
+        espPatternStats(made, &figures.patterns) != ESP_OK)
+        return fail(espLastError(made));
+    const auto& [stats, roofs, patterns] = figures;
     if (stats.cut > 0)
         warn("growth was cut at its limit of " + std::to_string(grow.maxNodes) + " nodes");
     else if (stats.stopped > 0)
         warn("a limit of depth or recursion ended " + std::to_string(stats.stopped) + " branches");
     if (roofs.stopped > 0) warn("a limit ended " + std::to_string(roofs.stopped) + " shapes of roofs");
-    EspPatternStats patterns;
-    if (espPatternStats(made, &patterns) != ESP_OK) return fail(espLastError(made));
     if (const size_t planted = document.scene().seeds.size(), grown = stats.seeds + patterns.seeds; grown < planted)
         warn(std::to_string(planted - grown) + " of " + std::to_string(planted) +
              " seeds don't grow: they stand on bare ground, or another surface lies upon theirs");
     film.warnOfOld(replays ? recorded.frames() : options.frames);
-    if (!options.stats.empty() && !writeText(options.stats, statsJson(stats, roofs, patterns), error))
-        return fail(error);
+    if (!options.stats.empty()) {
+        const auto inputs = espalier::capture::inputsOf(options.request, document.scene(), {options.replay});
+        if (!writeText(options.stats, espalier::capture::figuresJson(made, figures, inputs), error)) return fail(error);
+    }
     std::printf("%u frames in %s: %u seeds, %" PRIu64 " nodes, %u branches, %" PRIu64 " leaves, %" PRIu64
                 " polygons (%s)\n",
                 taken, options.folder.c_str(), stats.seeds, stats.nodes, stats.branches, stats.leaves, stats.polygons,
@@ -381,6 +400,14 @@ int run(Options options) {
     if (patterns.seeds > 0)
         std::printf("patterns: %u pieces stand of %u tried, %u sets fell, in %u waves and %u rounds; %.1f ms\n",
                     patterns.pieces, patterns.tried, patterns.fallen, patterns.waves, patterns.rounds, patterns.ms);
+    for (const LoadedGraph& graph : document.scene().graphs) {
+        EspGraphStats told;
+        if (espGraphStats(context.get(), graph.id, &told) != ESP_OK) continue;
+        std::printf("%s: %u nodes, %" PRIu64 " vertices, %" PRIu64 " triangles in %" PRIu64
+                    " instances; last evaluation: %u nodes, %.2f ms\n",
+                    graph.file.c_str(), told.nodes, told.vertices, told.triangles, told.instances, told.evaluated,
+                    told.ms);
+    }
     if (roofs.houses > 0)
         std::printf("%u houses: %" PRIu64 " tiles (%" PRIu64
                     " clipped) in %u records, %.2f bytes a tile; "

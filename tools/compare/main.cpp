@@ -1,55 +1,24 @@
-// Two pictures in, whether they are alike out: the share of pixels whose channels all differ by at most the
-// tolerance must reach the wanted share. Exit code 0: alike, 1: not alike, 2: can't tell.
+// Two pictures in, or two folders of them, whether they are alike out: the share of pixels whose channels all differ
+// by at most the tolerance must reach the wanted share. Exit code 0: all are alike, 1: one isn't, 2: can't tell.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <new>
+#include <optional>
 
 #include "tools/command_line.hpp"
+#include "tools/compare/comparison.hpp"
+#include "tools/compare/folders.hpp"
+#include "tools/compare/reports.hpp"
 #include "tools/scene/picture.hpp"
+#include "tools/scene/text_file.hpp"
 
-using namespace espalier::scene;
+using namespace espalier::compare;
+namespace fs = std::filesystem;
 
 namespace {
-
-constexpr size_t kChannels = 4;
-
-struct Comparison {
-    double within = 0;                // share of the pixels
-    float largest = 0;                // difference of a channel, of 255
-    std::vector<uint8_t> difference;  // as a picture
-};
-
-// tolerance: of 255; 0: only what is the same to the bit is within it. What is no number is like itself only. shown:
-// with the picture.
-Comparison compare(const FloatPicture& a, const FloatPicture& b, int tolerance, bool shown) {
-    constexpr float kRounding = 1e-3f;  // of parts that were whole numbers
-    Comparison out;
-    const size_t pixels = size_t(a.width) * a.height;
-    if (shown) out.difference.assign(pixels * kChannels, 255);
-    size_t within = 0;
-    for (size_t i = 0; i < pixels; ++i) {
-        bool near = true;
-        float pixel[kChannels];
-        for (size_t c = 0; c < kChannels; ++c) {
-            const float x = a.rgba[kChannels * i + c], y = b.rgba[kChannels * i + c];
-            const bool same = x == y || (std::isnan(x) && std::isnan(y));
-            const float d = same ? 0 : std::abs(x - y);
-            pixel[c] = std::isnan(d) ? INFINITY : 255 * d;
-            near = near && (same || (tolerance > 0 && pixel[c] <= float(tolerance) + kRounding));
-            out.largest = std::max(out.largest, pixel[c]);
-        }
-        // What only alpha tells is seen as grey.
-        for (size_t c = 0; shown && c < 3; ++c)
-            out.difference[kChannels * i + c] = uint8_t(std::min(255.f, 8 * std::max(pixel[c], pixel[3])));
-        within += near;
-    }
-    out.within = double(within) / double(pixels);
-    return out;
-}
 
 int fail(const std::string& message) {
     std::fprintf(stderr, "espalier-compare: %s\n", message.c_str());
@@ -57,38 +26,102 @@ int fail(const std::string& message) {
 }
 
 struct Question {
-    std::string first, second, diff;
-    int tolerance = 5;
-    double share = 0.999;
+    std::string first, second, diff, junit, json, html;
+    Limits limits;
+    bool folders = false;
+    Kept kept() const { return {!html.empty(), !html.empty() || !diff.empty()}; }
 };
 
-int answer(const Question& asked) {
-    FloatPicture a, b;
-    std::string error;
-    if (!readFloats(asked.first, a, error) || !readFloats(asked.second, b, error)) return fail(error);
-    if (a.width != b.width || a.height != b.height) {
-        std::fprintf(stderr, "espalier-compare: %s is %u x %u, %s is %u x %u\n", asked.first.c_str(), a.width, a.height,
-                     asked.second.c_str(), b.width, b.height);
-        return 1;
+// One line, on stderr where nothing could be measured.
+void tell(const Question& asked, const Comparison& found) {
+    const std::string name = asked.folders ? found.name + ": " : "";
+    if (!found.measured)
+        std::fprintf(stderr, "espalier-compare: %s%s\n", name.c_str(), found.why.c_str());
+    else
+        std::printf("%s%s: %s\n", name.c_str(), found.verdict == Verdict::alike ? "alike" : "not alike",
+                    figuresOf(found, asked.limits).c_str());
+}
+
+// Of folders only pictures that differ get one, each by its name with .png behind it.
+bool writeDifference(const Question& asked, const Comparison& found, std::string& error) {
+    if (asked.diff.empty() || found.pictures[2].empty()) return true;
+    if (asked.folders && found.verdict == Verdict::alike) return true;
+    const std::string file = asked.folders ? (fs::path(asked.diff) / (found.name + ".png")).string() : asked.diff;
+    std::error_code code;
+    if (asked.folders) fs::create_directories(fs::path(file).parent_path(), code);
+    return espalier::scene::writePng(file, found.pictures[2].data(), found.width, found.height, error);
+}
+
+Comparison compared(const Question& asked, const Pair& pair) {
+    Comparison found;
+    if (pair.first.empty() || pair.second.empty()) {
+        found.verdict = Verdict::different;
+        found.why = pair.second.empty() ? asked.second + " has no such picture" : asked.first + " has no such picture";
+    } else {
+        found = compareFiles(pair.first, pair.second, asked.limits, asked.kept());
     }
-    const Comparison found = compare(a, b, asked.tolerance, !asked.diff.empty());
-    const bool alike = found.within >= asked.share;
-    const double pixels = double(a.width) * double(a.height);
-    std::printf(
-        "%s: %.5f of the pixels differ by at most %d, the largest difference is %.4g (wanted: %.5f; %.0f of %.0f "
-        "differ by "
-        "more)\n",
-        alike ? "alike" : "not alike", found.within, asked.tolerance, double(found.largest), asked.share,
-        std::round((1 - found.within) * pixels), pixels);
-    if (!asked.diff.empty() && !writePng(asked.diff, found.difference.data(), a.width, a.height, error))
+    found.name = pair.name;
+    return found;
+}
+
+int answer(const Question& asked) {
+    std::string error;
+    std::vector<Pair> pairs{{fs::path(asked.second).filename().string(), asked.first, asked.second}};
+    if (asked.folders && (pairs.clear(), !pairsOf(asked.first, asked.second, pairs, error))) return fail(error);
+    Page page(asked.html);
+    if (!asked.html.empty() && !page.begin(error)) return fail(error);
+
+    std::vector<Comparison> all;
+    for (const Pair& pair : pairs) {
+        Comparison found = compared(asked, pair);
+        tell(asked, found);
+        if (!writeDifference(asked, found, error)) return fail(error);
+        if (found.verdict == Verdict::alike)
+            for (auto& picture : found.pictures) picture.clear();
+        if (!asked.html.empty() && !page.add(found, asked.limits, error)) return fail(error);
+        for (auto& picture : found.pictures) picture = {};  // there may be thousands of them
+        all.push_back(std::move(found));
+    }
+    if (!asked.html.empty() && !page.finish(error)) return fail(error);
+    if (!asked.junit.empty() && !espalier::scene::writeText(asked.junit, junitOf(all), error)) return fail(error);
+    if (!asked.json.empty() && !espalier::scene::writeText(asked.json, jsonOf(all, asked.limits), error))
         return fail(error);
-    return alike ? 0 : 1;
+
+    const auto any = [&](Verdict verdict) {
+        return std::ranges::any_of(all, [&](auto& one) { return one.verdict == verdict; });
+    };
+    return any(Verdict::unknown) ? 2 : any(Verdict::different) ? 1 : 0;
+}
+
+bool within(const std::string& inner, const std::string& folder) {
+    std::error_code ignored;
+    const fs::path a = fs::weakly_canonical(fs::absolute(inner), ignored), b = fs::weakly_canonical(folder, ignored);
+    return std::mismatch(b.begin(), b.end(), a.begin(), a.end()).first == b.end();
+}
+
+// What can't be answered as it is asked; empty: it can.
+std::string mistakeOf(const Question& asked) {
+    if (asked.folders != fs::is_directory(asked.second))
+        return "compares two pictures or two folders, not a picture with a folder";
+    if (!asked.folders) {
+        const fs::path ending = fs::path(asked.diff).extension();
+        if (!ending.empty() && ending != ".png") return "--diff writes .png, not '" + asked.diff + "'";
+    }
+    const std::string page = asked.html.empty() ? "" : (fs::path(asked.html) / "index.html").string();
+    if (const auto lost = espalier::writtenOver({asked.first, asked.second},
+                                                {asked.folders ? "" : asked.diff, asked.junit, asked.json, page}))
+        return *lost + " would overwrite a picture to compare, or another file that is written";
+    for (const std::string& folder : {asked.html, asked.folders ? asked.diff : ""})
+        for (const std::string& read : {asked.first, asked.second})
+            if (asked.folders && !folder.empty() && within(folder, read))
+                return folder + " lies in " + read + ", so its pictures would be compared the next time";
+    return {};
 }
 
 int compareAsAsked(int argc, char** argv) {
     CLI::App app{
-        "Compares two pictures pixel by pixel, alpha too. Ends with 0: alike, 1: not alike, also by their sizes, 2: "
-        "can't tell.",
+        "Compares two pictures pixel by pixel, alpha too, or all pictures of two folders by their names. Ends with 0: "
+        "alike, 1: not alike, also by their sizes or where one is missing, 2: can't tell.",
         "espalier-compare"};
     app.set_version_flag("--version", ESPALIER_VERSION);
     Question asked;
@@ -99,21 +132,24 @@ int compareAsAsked(int argc, char** argv) {
                    ? ""
                    : "'" + text + "' isn't a share from 0 to 1";
     };
-    app.add_option("A", asked.first, "a picture")->required();
-    app.add_option("B", asked.second, "the picture to compare it with")->required();
-    app.add_option("--tolerance", asked.tolerance, "how far a channel may differ, of 255; 0: not by a bit, in EXR too")
+    app.add_option("A", asked.first, "a picture, or a folder of pictures that are approved")->required();
+    app.add_option("B", asked.second, "the picture or folder to compare it with")->required();
+    app.add_option("--tolerance", asked.limits.tolerance,
+                   "how far a channel may differ, of 255; 0: not by a bit, in EXR too")
         ->capture_default_str()
         ->check(CLI::Range(0, 255));
-    app.add_option("--share", asked.share, "the share of pixels that must be within it")
+    app.add_option("--share", asked.limits.share, "the share of pixels that must be within it")
         ->capture_default_str()
         ->check(isShare, "FLOAT in [0 - 1]");
-    app.add_option("--diff", asked.diff, "writes a PNG of the differences, brightest where they are largest");
+    app.add_option("--diff", asked.diff,
+                   "writes a PNG of the differences, brightest where they are largest; of folders a folder of them");
+    app.add_option("--report", asked.junit, "writes JUnit's XML: a test case for each picture");
+    app.add_option("--json", asked.json, "writes which pictures differ, where and by how much");
+    app.add_option("--html", asked.html, "a folder: writes a page there that shows both pictures under a slider");
     if (const auto ends = espalier::parseCommandLine(app, argc, argv)) return *ends;
 
-    if (espalier::writtenOver({asked.first, asked.second}, {asked.diff}))
-        return fail("--diff " + asked.diff + " would overwrite a picture to compare");
-    const std::filesystem::path ending = std::filesystem::path(asked.diff).extension();
-    if (!ending.empty() && ending != ".png") return fail("--diff writes .png, not '" + asked.diff + "'");
+    asked.folders = fs::is_directory(asked.first);
+    if (const std::string mistake = mistakeOf(asked); !mistake.empty()) return fail(mistake);
     try {
         return answer(asked);
     } catch (const std::bad_alloc&) {

@@ -63,8 +63,12 @@ Status writeRuin(const Options& options) {
     return writeBytes(options.previewDirectory + "/ruin_normal.png", encodePng(ruin.painted.normal, 3));
 }
 
-Status previewTerminals(const Options& options, const Glb& glb, const LeafAtlas& leaves, const Tile& bark,
-                        const Tile& pebbles) {
+// A material's pictures.
+struct Painted {
+    const Picture *color, *normal;
+};
+
+Status previewTerminals(const Options& options, const Glb& glb, const std::array<Painted, 4>& painted) {
     std::vector<PreviewItem> items;
     float x = -4.4f;
     for (auto& m : glb.meshes) {
@@ -76,9 +80,8 @@ Status previewTerminals(const Options& options, const Glb& glb, const LeafAtlas&
         if (m.material == 1)
             place = glm::rotate(glm::scale(place, glm::vec3(0.15f, 1, 0.15f)), -1.57f, glm::vec3(1, 0, 0));
         if (m.material == 2) place = glm::rotate(place, -1.2f, glm::vec3(1, 0, 0));
-        const Picture* color = m.material == 0 ? &leaves.color : m.material == 1 ? &bark.color : &pebbles.color;
-        const Picture* normal = m.material == 0 ? &leaves.normal : m.material == 1 ? &bark.normal : &pebbles.normal;
-        items.push_back({m.mesh, color, normal, m.material != 0, place});
+        const auto [color, normal] = painted[size_t(m.material)];
+        items.push_back({m.mesh, color, normal, m.material == 1 || m.material == 2, place});
     }
     PreviewView view{{0.4f, 0.7f, 6.0f}, {0, 0.35f, 0}, 38, 1280, 720, {0.4f, 0.6f, 0.7f}, true};
     if (Status s = writeBytes(options.previewDirectory + "/terminals.png", encodePng(preview(items, view), 3)); !s)
@@ -94,27 +97,33 @@ Status previewTerminals(const Options& options, const Glb& glb, const LeafAtlas&
         place = glm::rotate(place, (random01(k, 4) - 0.5f) * 2.2f + 3.14f, glm::vec3(0, 0, 1));
         place = glm::rotate(place, 0.35f + 0.5f * random01(k, 5), glm::vec3(1, 0, 0));
         place = glm::scale(place, glm::vec3(0.16f + 0.12f * random01(k, 6)));
-        items.push_back({glb.meshes[3 * (k % 3)].mesh, &leaves.color, &leaves.normal, false, place});
+        items.push_back({glb.meshes[3 * (k % 3)].mesh, painted[0].color, painted[0].normal, false, place});
     }
     view = {{0.4f, 0.35f, 1.7f}, {0, 0, 0}, 38, 1280, 720, {0.4f, 0.7f, 0.6f}, true};
     if (Status s = writeBytes(options.previewDirectory + "/leaves.png", encodePng(preview(items, view), 3)); !s)
         return s;
-    if (Status s = writeBytes(options.previewDirectory + "/leaf_color.png", encodePng(leaves.color, 4)); !s) return s;
-    if (Status s = writeBytes(options.previewDirectory + "/leaf_normal.png", encodePng(leaves.normal, 3)); !s) return s;
-    return writeBytes(options.previewDirectory + "/bark_color.png", encodePng(bark.color, 3));
+    if (Status s = writeBytes(options.previewDirectory + "/leaf_color.png", encodePng(*painted[0].color, 4)); !s)
+        return s;
+    if (Status s = writeBytes(options.previewDirectory + "/flora_color.png", encodePng(*painted[3].color, 4)); !s)
+        return s;
+    if (Status s = writeBytes(options.previewDirectory + "/leaf_normal.png", encodePng(*painted[0].normal, 3)); !s)
+        return s;
+    return writeBytes(options.previewDirectory + "/bark_color.png", encodePng(*painted[1].color, 3));
 }
 
 Status writeTerminals(const Options& options) {
-    LeafAtlas leaves = paintLeaves(1024);
+    LeafAtlas leaves = paintLeaves(1024), flora = paintFlora(1024);
     Tile bark = paintBark(512), pebbles = paintPebble(256);
     Glb glb;
     glb.images = {
         {"leaf color", encodePng(leaves.color, 4), true},    {"leaf normal", encodePng(leaves.normal, 3), true},
         {"bark color", encodePng(bark.color, 3), true},      {"bark normal", encodePng(bark.normal, 3), true},
-        {"pebble color", encodePng(pebbles.color, 3), true}, {"pebble normal", encodePng(pebbles.normal, 3), true}};
+        {"pebble color", encodePng(pebbles.color, 3), true}, {"pebble normal", encodePng(pebbles.normal, 3), true},
+        {"flora color", encodePng(flora.color, 4), true},    {"flora normal", encodePng(flora.normal, 3), true}};
     glb.materials = {{"leaf", 0, 1, 0.55f, 0.5f, true, false},
                      {"bark", 2, 3, 0.95f, 0, false, true},
-                     {"pebble", 4, 5, 0.9f, 0, false, true}};
+                     {"pebble", 4, 5, 0.9f, 0, false, true},
+                     {"flora", 6, 7, 0.6f, 0.5f, true, false}};
     std::deque<Mesh> meshes;
     auto add = [&](const std::string& name, Mesh mesh, int material) {
         meshes.push_back(std::move(mesh));
@@ -128,9 +137,18 @@ Status writeTerminals(const Options& options) {
     for (int l = 0; l < kBarkLods; ++l) add("bark_lod" + std::to_string(l), makeBark(l), 1);
     for (int v = 0; v < kPebbleVariants; ++v)
         for (int l = 0; l < kPebbleLods; ++l) add(numbered("pebble", v, l), makePebble(v, l), 2);
+    for (int l = 0; l < kFloraLods; ++l) {
+        for (int v = 0; v < kOvalVariants; ++v) add(numbered("oval", v, l), makeFlora(kFirstOval + v, l), 3);
+        add("blossom_lod" + std::to_string(l), makeFlora(kBlossom, l), 3);
+        add("tuft_lod" + std::to_string(l), makeTuft(l), 3);
+    }
     if (Status s = writeGlb(options.directory + "/terminals.glb", glb); !s) return s;
     if (options.previewDirectory.empty()) return Done{};
-    return previewTerminals(options, glb, leaves, bark, pebbles);
+    return previewTerminals(options, glb,
+                            {{{&leaves.color, &leaves.normal},
+                              {&bark.color, &bark.normal},
+                              {&pebbles.color, &pebbles.normal},
+                              {&flora.color, &flora.normal}}});
 }
 
 Status writeRoofMeshes(const Options& options) {

@@ -16,8 +16,8 @@ namespace {
 // Where a point of the flat leaf is in space: the stalk rises, the blade folds along its midrib, its sides and tips
 // droop, and its rim waves a little.
 glm::vec3 shapeLeaf(int variant, float base, glm::vec2 p) {
-    static const float kFold[] = {0.22f, 0.12f, 0.30f};
-    static const float kDroop[] = {0.34f, 0.42f, 0.28f};
+    static const float kFold[] = {0.22f, 0.12f, 0.30f, 0.20f, 0.26f, 0.16f};
+    static const float kDroop[] = {0.34f, 0.42f, 0.28f, 0.30f, 0.38f, 0.06f};
     float t = saturate(p.y / base);
     float rise = 0.13f * (1 - (1 - t) * (1 - t));
     glm::vec2 q = p - glm::vec2(0, base);
@@ -171,12 +171,9 @@ void smoothNormals(Mesh& mesh) {
 
 }  // namespace
 
-Mesh makeLeaf(int variant, int lod) {
-    LeafShape shape = leafShape(variant);
-    Flat flat = lod == 0   ? fineLeaf(shape)
-                : lod == 1 ? middleLeaf(shape, 8)
-                : lod == 2 ? farLeaf(shape)
-                           : triangleLeaf(variant);
+namespace {
+
+Mesh bent(int variant, const LeafShape& shape, const Flat& flat, uint32_t stalkRings) {
     Mesh mesh;
     for (glm::vec2 p : flat.points) {
         mesh.positions.push_back(shapeLeaf(variant, shape.base, {p.x * flat.stretch, p.y}));
@@ -184,8 +181,43 @@ Mesh makeLeaf(int variant, int lod) {
     }
     for (auto& t : flat.triangles)
         for (uint32_t v : t) mesh.indices.push_back(v);
-    if (lod < 2) addStalk(mesh, variant, shape, lod == 0 ? 4 : 2);
+    if (stalkRings > 0) addStalk(mesh, variant, shape, stalkRings);
     smoothNormals(mesh);
+    return mesh;
+}
+
+}  // namespace
+
+Mesh makeLeaf(int variant, int lod) {
+    LeafShape shape = leafShape(variant);
+    Flat flat = lod == 0   ? fineLeaf(shape)
+                : lod == 1 ? middleLeaf(shape, 8)
+                : lod == 2 ? farLeaf(shape)
+                           : triangleLeaf(variant);
+    return bent(variant, shape, flat, lod == 0 ? 4 : lod == 1 ? 2 : 0);
+}
+
+Mesh makeFlora(int form, int lod) {
+    static const size_t kCorners[] = {16, 8, 5};
+    const LeafShape shape = leafShape(form);
+    return bent(form, shape, middleLeaf(shape, kCorners[lod]), lod == 0 ? 4 : lod == 1 ? 2 : 0);
+}
+
+Mesh makeTuft(int lod) {
+    static const int kCards[] = {3, 2, 1};
+    Mesh mesh;
+    for (int card = 0; card < kCards[lod]; ++card) {
+        const float turn = kPi * static_cast<float>(card) / static_cast<float>(kCards[lod]);
+        const glm::vec3 side(std::cos(turn), 0, std::sin(turn)), out(-side.z, 0, side.x);
+        const uint32_t first = static_cast<uint32_t>(mesh.positions.size());
+        for (glm::vec2 p :
+             {glm::vec2(-0.55f, 0), glm::vec2(0.55f, 0), glm::vec2(0.55f, 1.02f), glm::vec2(-0.55f, 1.02f)}) {
+            mesh.positions.push_back(side * p.x + glm::vec3(0, p.y, 0));
+            mesh.normals.push_back(glm::normalize(glm::vec3(0, 1, 0) + 0.35f * p.x * side + 0.15f * out));
+            mesh.uvs.push_back(leafUv(kTuft, p));
+        }
+        for (uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.indices.push_back(first + k);
+    }
     return mesh;
 }
 

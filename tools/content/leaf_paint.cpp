@@ -48,9 +48,35 @@ Veins veinsAt(const LeafShape& shape, glm::vec2 p) {
     return out;
 }
 
+// Violet, paler along the veins and towards the rim, a yellow middle.
+glm::vec3 petalColor(const LeafShape& shape, glm::vec2 p, float edge, const Veins& veins, bool back) {
+    const float out = glm::distance(p, {0, 0.5f * (1 + shape.base)});
+    glm::vec3 color = glm::mix(glm::vec3(0.17f, 0.04f, 0.30f), glm::vec3(0.30f, 0.12f, 0.45f), ramp(0.07f, 0.0f, edge));
+    color = glm::mix(color, glm::vec3(0.40f, 0.18f, 0.50f), 0.6f * veins.main);
+    color *= 1 + 0.14f * fractal(p * 22.0f, 1001, 3);
+    color =
+        glm::mix(color, glm::vec3(0.72f, 0.58f, 0.16f) * (1 + 0.4f * noise(p * 60.0f, 1007)), ramp(0.095f, 0.06f, out));
+    return back ? glm::mix(color, glm::vec3(0.46f, 0.38f, 0.50f), 0.5f) : color;
+}
+
+// Grass: dark at the foot.
+glm::vec3 tuftColor(glm::vec2 p) {
+    const glm::vec3 color =
+        glm::mix(glm::vec3(0.022f, 0.042f, 0.012f), glm::vec3(0.115f, 0.175f, 0.040f), saturate(1.2f * p.y));
+    return color * (1 + 0.35f * noise(glm::vec2(p.x * 38.0f, p.y * 5.0f), 1011));
+}
+
 glm::vec3 bladeColor(int variant, glm::vec2 p, float edge, const Veins& veins, bool back) {
-    static const glm::vec3 kDark[] = {{0.022f, 0.058f, 0.014f}, {0.034f, 0.080f, 0.017f}, {0.017f, 0.046f, 0.016f}};
-    static const glm::vec3 kLight[] = {{0.060f, 0.120f, 0.026f}, {0.098f, 0.165f, 0.030f}, {0.045f, 0.092f, 0.028f}};
+    static const glm::vec3 kDark[] = {{0.022f, 0.058f, 0.014f},
+                                      {0.034f, 0.080f, 0.017f},
+                                      {0.017f, 0.046f, 0.016f},
+                                      {0.030f, 0.074f, 0.020f},
+                                      {0.026f, 0.062f, 0.020f}};
+    static const glm::vec3 kLight[] = {{0.060f, 0.120f, 0.026f},
+                                       {0.098f, 0.165f, 0.030f},
+                                       {0.045f, 0.092f, 0.028f},
+                                       {0.082f, 0.150f, 0.038f},
+                                       {0.070f, 0.130f, 0.036f}};
     uint32_t salt = 840u + static_cast<uint32_t>(variant) * 16u;
     float cloud = saturate(0.5f + 0.75f * fractal(p * 4.2f, salt, 3));
     glm::vec3 color = glm::mix(kDark[variant], kLight[variant], cloud);
@@ -80,14 +106,26 @@ float bladeHeight(int variant, glm::vec2 p, const Veins& veins) {
 
 }  // namespace
 
-LeafAtlas paintLeaves(int size) {
+namespace {
+
+glm::vec3 colorAt(int form, const LeafShape& shape, glm::vec2 p, float edge, const Veins& veins, bool back) {
+    if (form == kTuft) return tuftColor(p);
+    const bool stalk = p.y < shape.base && std::abs(p.x) < 0.035f && edge > -0.03f &&
+                       leafDistance(shape, {p.x + 0.06f, p.y}) < 0 && leafDistance(shape, {p.x - 0.06f, p.y}) < 0;
+    if (stalk) return stalkColor(p);
+    return form == kBlossom ? petalColor(shape, p, edge, veins, back) : bladeColor(form, p, edge, veins, back);
+}
+
+// `count` forms from `first` on, side by side.
+LeafAtlas paintForms(int size, int first, int count) {
     LeafAtlas atlas{Picture(size, size), Picture(size, size)};
     std::vector<uint8_t> filled(static_cast<size_t>(size) * static_cast<size_t>(size), 0);
     float texel = 1.0f / static_cast<float>(size);
     int half = size / 2;
-    for (int variant = 0; variant < kLeafVariants; ++variant) {
+    for (int column = 0; column < count; ++column) {
+        const int variant = first + column;
         LeafShape shape = leafShape(variant);
-        int x0 = size * variant / 3, x1 = size * (variant + 1) / 3;
+        int x0 = size * column / count, x1 = size * (column + 1) / count;
         float unit = glm::distance(leafPoint(variant, {0, texel}), leafPoint(variant, {0, 0}));
         for (int y = 0; y < half; ++y)
             for (int x = x0; x < x1; ++x) {
@@ -95,8 +133,6 @@ LeafAtlas paintLeaves(int size) {
                 float edge = leafDistance(shape, p);
                 // The ramp is 16 texels wide: wide enough to survive three mip levels.
                 float alpha = saturate(0.5f + edge / unit / 16);
-                bool stalk = p.y < shape.base && std::abs(p.x) < 0.035f && edge > -0.03f &&
-                             leafDistance(shape, {p.x + 0.06f, p.y}) < 0 && leafDistance(shape, {p.x - 0.06f, p.y}) < 0;
                 Veins veins = veinsAt(shape, p);
                 float step = unit;
                 float h = bladeHeight(variant, p, veins);
@@ -104,7 +140,7 @@ LeafAtlas paintLeaves(int size) {
                 float hy = bladeHeight(variant, p + glm::vec2(0, step), veinsAt(shape, p + glm::vec2(0, step))) - h;
                 glm::vec3 n = glm::normalize(glm::vec3(-hx / step, -hy / step, 1.0f));
                 for (int side = 0; side < 2; ++side) {
-                    glm::vec3 color = stalk ? stalkColor(p) : bladeColor(variant, p, edge, veins, side == 1);
+                    const glm::vec3 color = colorAt(variant, shape, p, edge, veins, side == 1);
                     uint8_t* c = atlas.color.at(x, y + side * half);
                     uint8_t* m = atlas.normal.at(x, y + side * half);
                     for (int k = 0; k < 3; ++k) {
@@ -123,6 +159,16 @@ LeafAtlas paintLeaves(int size) {
         for (int x = 0; x < size; ++x) atlas.normal.at(x, y)[3] = 255;
     dilate(atlas.color, filled, size / 32);
     return atlas;
+}
+
+}  // namespace
+
+LeafAtlas paintLeaves(int size) {
+    return paintForms(size, 0, kLeafVariants);
+}
+
+LeafAtlas paintFlora(int size) {
+    return paintForms(size, kFirstOval, kFloraForms);
 }
 
 }  // namespace espalier::content

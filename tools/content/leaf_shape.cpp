@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/content/leaf.hpp"
 #include "tools/content/maths.hpp"
 #include "tools/content/noise.hpp"
 
@@ -29,6 +30,12 @@ std::vector<Stroke> halfOutline(int variant) {
             return {{{0.05f, -0.10f}, {0.18f, -0.135f}}, {{0.36f, -0.16f}, {0.50f, -0.03f}},
                     {{0.60f, 0.08f}, {0.68f, 0.26f}},    {{0.53f, 0.30f}, {0.39f, 0.335f}},
                     {{0.30f, 0.36f}, {0.30f, 0.45f}},    {{0.29f, 0.68f}, {0.0f, 1.0f}}};
+        case kFirstOval:  // an egg with a drawn-out tip
+            return {
+                {{0.10f, -0.06f}, {0.26f, 0.00f}}, {{0.52f, 0.12f}, {0.47f, 0.40f}}, {{0.42f, 0.74f}, {0.0f, 1.0f}}};
+        case kFirstOval + 1:  // a lance
+            return {
+                {{0.06f, -0.02f}, {0.18f, 0.06f}}, {{0.37f, 0.20f}, {0.33f, 0.45f}}, {{0.27f, 0.76f}, {0.0f, 1.0f}}};
         default:  // five narrow lobes, a long middle one
             return {{{0.04f, -0.12f}, {0.15f, -0.20f}},  {{0.26f, -0.28f}, {0.43f, -0.26f}},
                     {{0.36f, -0.11f}, {0.30f, -0.015f}}, {{0.27f, 0.045f}, {0.33f, 0.09f}},
@@ -40,6 +47,7 @@ std::vector<Stroke> halfOutline(int variant) {
 // Tips that the main veins run to, right half and middle.
 std::vector<glm::vec2> lobeTips(int variant) {
     if (variant == 0) return {{0, 1}, {0.70f, 0.385f}, {0.50f, -0.155f}};
+    if (variant >= kFirstOval) return {{0, 1}};
     if (variant == 1) return {{0, 1}, {0.68f, 0.26f}, {0.44f, -0.06f}};
     return {{0, 1}, {0.585f, 0.30f}, {0.43f, -0.26f}};
 }
@@ -61,9 +69,59 @@ float polylineDistance(const std::vector<glm::vec2>& line, glm::vec2 p, bool clo
     return best;
 }
 
+// Five petals around a middle, a vein along each.
+LeafShape blossomShape() {
+    constexpr int kPetals = 5, kPoints = 80;
+    LeafShape shape;
+    shape.base = 0.30f;
+    const float radius = 0.5f * (1 - shape.base);
+    const glm::vec2 middle(0, shape.base + radius);
+    const auto at = [&](float turn, float share) {
+        const float petal = std::pow(std::abs(std::cos(0.5f * kPetals * turn)), 0.55f);
+        return middle + radius * share * (0.46f + 0.54f * petal) * glm::vec2(std::sin(turn), std::cos(turn));
+    };
+    // Counter-clockwise from the stalk.
+    for (int i = 0; i < kPoints; ++i)
+        shape.outline.push_back(at(kPi - 2 * kPi * (static_cast<float>(i) + 0.5f) / kPoints, 1));
+    for (int i = 0; i < kPetals; ++i) {
+        const float turn = 2 * kPi * static_cast<float>(i) / kPetals;
+        shape.veins.push_back({at(turn, 0.15f), at(turn, 0.55f), at(turn, 0.92f)});
+    }
+    return shape;
+}
+
+// Blades side by side, one outline from the right to the left.
+LeafShape tuftShape() {
+    constexpr int kBlades = 7;
+    LeafShape shape;
+    shape.base = 0.02f;
+    shape.outline.push_back({0.30f, 0.0f});
+    for (int i = 0; i < kBlades; ++i) {
+        const uint32_t blade = static_cast<uint32_t>(i);
+        const float x = 0.20f - 0.40f * static_cast<float>(i) / (kBlades - 1),
+                    lean = 2.1f + 0.5f * random01(blade, 982);
+        const float high = (0.60f + 0.40f * random01(blade, 981)) * (1 - 5.0f * x * x);
+        const glm::vec2 foot(x, 0), tip(x * lean + 0.10f * (random01(blade, 983) - 0.5f), high);
+        const glm::vec2 bow(0.35f * (tip.x - x), -0.06f * std::abs(tip.x));
+        for (float t : {0.35f, 0.7f, 1.0f}) {
+            const float half = 0.034f * (1 - t * t) + 0.004f;
+            shape.outline.push_back(glm::mix(foot, tip, t) - bow * (t * (1 - t)) + glm::vec2(half, 0));
+        }
+        for (float t : {1.0f, 0.7f, 0.35f}) {
+            const float half = 0.034f * (1 - t * t) + 0.004f;
+            shape.outline.push_back(glm::mix(foot, tip, t) - bow * (t * (1 - t)) - glm::vec2(half, 0));
+        }
+        if (i + 1 < kBlades) shape.outline.push_back({x - 0.20f / (kBlades - 1), 0.05f});
+    }
+    shape.outline.push_back({-0.30f, 0.0f});
+    return shape;
+}
+
 }  // namespace
 
 LeafShape leafShape(int variant) {
+    if (variant == kBlossom) return blossomShape();
+    if (variant == kTuft) return tuftShape();
     LeafShape shape;
     float blade = 1 - shape.base;
     auto place = [&](glm::vec2 p) { return liven(p, variant) * blade + glm::vec2(0, shape.base); };
@@ -125,15 +183,27 @@ constexpr float kMargin = 0.008f;                // of the atlas, round each lea
 constexpr float kSpanX = 1.12f, kSpanY = 1.06f;  // flat leaf units that a cell shows
 }  // namespace
 
+namespace {
+// The column of a form in its atlas: low corner and size.
+struct AtlasCell {
+    glm::vec2 low, size;
+};
+AtlasCell cellOf(int form) {
+    const int column = form < kFirstOval ? form : form - kFirstOval,
+              columns = form < kFirstOval ? kLeafVariants : kFloraForms;
+    const glm::vec2 size(1.0f / static_cast<float>(columns), 0.5f);
+    return {{static_cast<float>(column) * size.x + kMargin, kMargin}, size - 2 * kMargin};
+}
+}  // namespace
+
 glm::vec2 leafUv(int variant, glm::vec2 p) {
-    glm::vec2 cell(1.0f / 3, 0.5f);
-    glm::vec2 unit(p.x / kSpanX + 0.5f, 1 - p.y / kSpanY);
-    return glm::vec2(static_cast<float>(variant), 0) * cell + kMargin + unit * (cell - 2 * kMargin);
+    const AtlasCell cell = cellOf(variant);
+    return cell.low + glm::vec2(p.x / kSpanX + 0.5f, 1 - p.y / kSpanY) * cell.size;
 }
 
 glm::vec2 leafPoint(int variant, glm::vec2 uv) {
-    glm::vec2 cell(1.0f / 3, 0.5f);
-    glm::vec2 unit = (uv - glm::vec2(static_cast<float>(variant), 0) * cell - kMargin) / (cell - 2 * kMargin);
+    const AtlasCell cell = cellOf(variant);
+    const glm::vec2 unit = (uv - cell.low) / cell.size;
     return {(unit.x - 0.5f) * kSpanX, (1 - unit.y) * kSpanY};
 }
 

@@ -87,12 +87,17 @@ void addBoard(Mesh& m, vec3 low, vec3 high) {
 // A window's frame with its cross.
 Mesh frame() {
     Mesh m;
-    addBoard(m, {0, 0, 0}, {1, 0.06f, 1.4f});
-    addBoard(m, {0, 0.94f, 0}, {1, 1, 1});
-    addBoard(m, {0, 0.06f, 0}, {0.07f, 0.94f, 1});
-    addBoard(m, {0.93f, 0.06f, 0}, {1, 0.94f, 1});
-    addBoard(m, {0.47f, 0.06f, 0}, {0.53f, 0.94f, 0.8f});
-    addBoard(m, {0.07f, 0.6f, 0}, {0.93f, 0.64f, 0.7f});
+    const auto bar = [&](vec3 low, vec3 high) {
+        const size_t first = m.positions.size();
+        addBoard(m, low, high);
+        thinAcross(m, first, low, high);
+    };
+    bar({0, 0, 0}, {1, 0.06f, 1.4f});
+    bar({0, 0.94f, 0}, {1, 1, 1});
+    bar({0, 0.06f, 0}, {0.07f, 0.94f, 1});
+    bar({0.93f, 0.06f, 0}, {1, 0.94f, 1});
+    bar({0.47f, 0.06f, 0}, {0.53f, 0.94f, 0.8f});
+    bar({0.07f, 0.6f, 0}, {0.93f, 0.64f, 0.7f});
     return m;
 }
 

@@ -7,27 +7,34 @@ namespace {
 
 using glm::vec3;
 
-// Across, where details have no depth any more, and where bars are less than a pixel.
-constexpr float kFlatPixels = 40, kBarlessPixels = 11;
+// Across, where details have no depth any more, and where bars are next to nothing of a pixel.
+constexpr float kFlatPixels = 40, kBarlessPixels = 8;
 
 // Two leaves with two bars each, which the coarsest level leaves out.
 Mesh casement(int lod) {
     Solid s;
     constexpr float kRim = 0.07f;
-    if (lod == 2) {
-        s.quad({0, 0, 1}, {1, 0, 1}, {1, 0.06f, 1}, {0, 0.06f, 1});
-        s.quad({0, 0.95f, 1}, {1, 0.95f, 1}, {1, 1, 1}, {0, 1, 1});
-        s.quad({0, 0.06f, 1}, {kRim, 0.06f, 1}, {kRim, 0.95f, 1}, {0, 0.95f, 1});
-        return s.quad({1 - kRim, 0.06f, 1}, {1, 0.06f, 1}, {1, 0.95f, 1}, {1 - kRim, 0.95f, 1}).mesh;
-    }
-    s.box({0, 0, 0}, {1, 0.06f, 1}).box({0, 0.95f, 0}, {1, 1, 1});
-    s.box({0, 0.06f, 0}, {kRim, 0.95f, 1}).box({1 - kRim, 0.06f, 0}, {1, 0.95f, 1});
-    s.box({0.46f, 0.06f, 0}, {0.54f, 0.95f, 0.8f});
-    for (float y : {0.34f, 0.64f})
+    const auto piece = [&](vec3 low, vec3 high) {
+        if (lod < 2) return void(s.bar(low, high));
+        const size_t first = s.mesh.positions.size();
+        s.quad({low.x, low.y, 1}, {high.x, low.y, 1}, {high.x, high.y, 1}, {low.x, high.y, 1});
+        thinAcross(s.mesh, first, low, high);
+    };
+    piece({0, 0, 0}, {1, 0.06f, 1});
+    piece({0, 0.95f, 0}, {1, 1, 1});
+    piece({0, 0.06f, 0}, {kRim, 0.95f, 1});
+    piece({1 - kRim, 0.06f, 0}, {1, 0.95f, 1});
+    if (lod == 2) return s.mesh;
+    s.bar({0.46f, 0.06f, 0}, {0.54f, 0.95f, 0.8f});
+    for (float y : {0.34f, 0.64f}) {
+        const float top = y + 0.025f;
+        const size_t first = s.mesh.positions.size();
         if (lod == 0)
-            s.box({kRim, y, 0}, {0.46f, y + 0.025f, 0.6f}).box({0.54f, y, 0}, {1 - kRim, y + 0.025f, 0.6f});
+            s.bar({kRim, y, 0}, {0.46f, top, 0.6f}).bar({0.54f, y, 0}, {1 - kRim, top, 0.6f});
         else
-            s.quad({kRim, y, 0.6f}, {1 - kRim, y, 0.6f}, {1 - kRim, y + 0.025f, 0.6f}, {kRim, y + 0.025f, 0.6f});
+            s.quad({kRim, y, 0.6f}, {1 - kRim, y, 0.6f}, {1 - kRim, top, 0.6f}, {kRim, top, 0.6f});
+        if (lod == 1) thinAcross(s.mesh, first, {kRim, y, 0}, {1 - kRim, top, 0.6f});
+    }
     return s.mesh;
 }
 

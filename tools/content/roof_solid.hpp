@@ -1,7 +1,7 @@
 #pragma once
 
 // What meshes of roofs and walls are put together from. Texture coordinates: u is how bright the mesh leaves its
-// shape's colour (1: as it is; recesses are darker), v is unused.
+// shape's colour (1: as it is; recesses are darker); v is 0 but for bars, see thinAcross.
 
 #include <cmath>
 #include <functional>
@@ -10,6 +10,15 @@
 #include "tools/content/roof_mesh.hpp"
 
 namespace espalier::content {
+
+// Vertices from `first` on are a bar's: their v tells which side of its middle they lie on, by its sign, and half its
+// width in the shape's; of bars that are thin along x, 1 more.
+inline void thinAcross(Mesh& mesh, size_t first, glm::vec3 low, glm::vec3 high) {
+    const int axis = high.x - low.x < high.y - low.y ? 0 : 1;
+    const float middle = (low[axis] + high[axis]) / 2, half = (high[axis] - low[axis]) / 2;
+    for (size_t i = first; i < mesh.positions.size(); ++i)
+        mesh.uvs[i].y = (axis == 0 ? 1 + half : half) * (mesh.positions[i][axis] < middle ? -1.0f : 1.0f);
+}
 
 class Solid {
   public:
@@ -40,6 +49,13 @@ class Solid {
         quad(at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1), shade);
         quad(at(1, 1, 0), at(0, 1, 0), at(0, 1, 1), at(1, 1, 1), shade);
         return quad(at(0, 1, 0), at(0, 0, 0), at(0, 0, 1), at(0, 1, 1), shade);
+    }
+    // A box that is a bar before a pane: where it is thinner than a pixel it is drawn one pixel wide, and the fainter.
+    Solid& bar(glm::vec3 low, glm::vec3 high) {
+        const size_t first = mesh.positions.size();
+        box(low, high);
+        thinAcross(mesh, first, low, high);
+        return *this;
     }
     // A sheet over (s, t) in [0, 1]^2 whose normals are smooth; shade too is a function of both.
     using Point = std::function<glm::vec3(float s, float t)>;

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "tools/document/graph_action.hpp"
 #include "tools/scene/scene.hpp"
 
 namespace espalier::document {
@@ -52,10 +53,13 @@ struct SeedRecord {
     uint32_t number = 1;
     std::vector<Param> params = {};  // in place of its grammar's
     scene::FrozenPlant frozen = {};  // kept for undo; no part of a run, which freezes by an action of its own
+    bool hidden = false;             // likewise
+    std::vector<std::array<float, 6>> line = {};  // as of scene::Seed
     template <class V>
     void fields(V&& v) {
         v("key", key), v("grammar", grammar), v("position", position), v("direction", direction), v("number", number);
         v("params", params);
+        v.optional("line", line);
     }
     bool operator==(const SeedRecord&) const = default;
 };
@@ -141,6 +145,125 @@ struct SetField {
     template <class V>
     void fields(V&& v) {
         v("surface", surface), v("said", said), v("field", field);
+    }
+};
+
+// A surface that comes to the scene, as its last; what grows on others may go on over it.
+struct AddSurface {
+    static constexpr const char* kName = "surface";
+    std::string file;  // that espalier-bake wrote
+    std::array<float, 3> position{};
+    float turn = 0, scale = 1;  // as of scene::Placing
+    template <class V>
+    void fields(V&& v) {
+        v("file", file), v("position", position), v("turn", turn), v("scale", scale);
+    }
+};
+// Puts a surface elsewhere, with what is planted and painted on it.
+struct PlaceSurface {
+    static constexpr const char* kName = "place_surface";
+    uint32_t surface = 0;
+    std::array<float, 3> position{};
+    float turn = 0, scale = 1;
+    template <class V>
+    void fields(V&& v) {
+        v("surface", surface), v("position", position), v("turn", turn), v("scale", scale);
+    }
+};
+// A grammar that comes to the scene, as its last.
+struct AddGrammar {
+    static constexpr const char* kName = "grammar";
+    std::string file;
+    template <class V>
+    void fields(V&& v) {
+        v("file", file);
+    }
+};
+
+// How one kind of terminal of a grammar looks; without files and colour as shipped.
+struct SetLook {
+    static constexpr const char* kName = "look";
+    uint32_t grammar = 0;
+    std::string terminal;
+    std::string mesh = {}, picture = {};  // as of scene::TerminalLook
+    std::vector<float> colour = {};
+    template <class V>
+    void fields(V&& v) {
+        v("grammar", grammar), v("terminal", terminal), v("mesh", mesh), v("picture", picture);
+        v.optional("colour", colour);
+    }
+};
+
+// Plants and models that are hidden, or seen again.
+struct ShowPlants {
+    static constexpr const char* kName = "show_plants";
+    std::vector<uint32_t> keys;
+    bool shown = true;
+    template <class V>
+    void fields(V&& v) {
+        v("keys", keys), v("shown", shown);
+    }
+};
+struct ShowSurfaces {
+    static constexpr const char* kName = "show_surfaces";
+    std::vector<uint32_t> surfaces;
+    bool shown = true;
+    template <class V>
+    void fields(V&& v) {
+        v("surfaces", surfaces), v("shown", shown);
+    }
+};
+// A surface that is locked stays where it is.
+struct LockSurface {
+    static constexpr const char* kName = "lock_surface";
+    uint32_t surface = 0;
+    bool locked = true;
+    template <class V>
+    void fields(V&& v) {
+        v("surface", surface), v("locked", locked);
+    }
+};
+// Houses of the town likewise.
+struct ShowHouses {
+    static constexpr const char* kName = "show_houses";
+    std::vector<uint32_t> houses;
+    bool shown = true;
+    template <class V>
+    void fields(V&& v) {
+        v("houses", houses), v("shown", shown);
+    }
+};
+// A house that is locked stays as it is.
+struct LockHouse {
+    static constexpr const char* kName = "lock_house";
+    uint32_t house = 0;
+    bool locked = true;
+    template <class V>
+    void fields(V&& v) {
+        v("house", house), v("locked", locked);
+    }
+};
+// A layer that is locked can't be painted, filled or loaded.
+struct LockLayer {
+    static constexpr const char* kName = "lock_layer";
+    std::string layer;
+    bool locked = true;
+    template <class V>
+    void fields(V&& v) {
+        v("layer", layer), v("locked", locked);
+    }
+};
+
+// Keeps a view under a digit, or none.
+struct SetBookmark {
+    static constexpr const char* kName = "bookmark";
+    uint32_t digit = 1;  // 1 to 9
+    bool kept = true;
+    std::array<float, 3> eye{}, target{};
+    float fov = .7f;  // radians
+    template <class V>
+    void fields(V&& v) {
+        v("digit", digit), v("kept", kept), v("eye", eye), v("target", target), v("fov", fov);
     }
 };
 
@@ -241,6 +364,16 @@ struct SetView {
         v("view", view), v("layer", layer);
     }
 };
+// What frame the scene's graphs show, of so many a second.
+struct SetGraphTime {
+    static constexpr const char* kName = "time";
+    uint32_t frame = 0;
+    float rate = scene::kGraphRate;
+    template <class V>
+    void fields(V&& v) {
+        v("frame", frame), v("rate", rate);
+    }
+};
 struct Undo {
     static constexpr const char* kName = "undo";
     template <class V>
@@ -259,6 +392,13 @@ struct SwapStroke {
     template <class V>
     void fields(V&&) {}
 };
+// Likewise: the last surface, grammar or graph of the scene goes. What was planted or painted on it has gone before.
+struct DropLast {
+    static constexpr const char* kName = "";
+    enum class Kind { surface, grammar, graph } kind = Kind::surface;
+    template <class V>
+    void fields(V&&) {}
+};
 // Likewise: plants as they were frozen, or not.
 struct RestoreFrozen {
     static constexpr const char* kName = "";
@@ -271,9 +411,13 @@ struct RestoreFrozen {
     template <class V>
     void fields(V&&) {}
 };
-using Action = std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, SetWalk, StrokeBegin,
-                            StrokeDabs, StrokeEnd, FillLayer, LoadLayer, FreezeSeeds, PruneBranch, SetHouse, ResetHouse,
-                            LoadTownLayer, SetField, SetCamera, SetView, Undo, Redo, SwapStroke, RestoreFrozen>;
+using Action =
+    std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, SetWalk, StrokeBegin, StrokeDabs,
+                 StrokeEnd, FillLayer, LoadLayer, FreezeSeeds, PruneBranch, SetHouse, ResetHouse, LoadTownLayer,
+                 SetField, AddSurface, PlaceSurface, AddGrammar, SetLook, SetBookmark, ShowPlants, ShowSurfaces,
+                 LockSurface, ShowHouses, LockHouse, LockLayer, AddGraph, SetGraphText, AddNodes, RemoveNodes,
+                 SetNodeInput, ConnectNodes, MoveNodes, RenameNode, ShowNodes, MuteNodes, SetCamera, SetView,
+                 SetGraphTime, Undo, Redo, SwapStroke, DropLast, RestoreFrozen>;
 
 // The layer that an action begins to change; empty: none.
 std::string layerOf(const Action& action);

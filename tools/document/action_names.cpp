@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "tools/document/document.hpp"
+#include "tools/scene/param_words.hpp"
 
 namespace espalier::document {
 namespace {
@@ -11,6 +12,9 @@ using Name = std::string;
 
 Name counted(size_t count, const char* one, const char* several) {
     return count == 1 ? one : std::to_string(count) + " " + several;
+}
+Name listed(const std::vector<std::string>& nodes) {
+    return counted(nodes.size(), nodes.empty() ? "" : nodes[0].c_str(), "nodes");
 }
 Name seeds(size_t count) {
     return counted(count, "a seed", "seeds");
@@ -71,7 +75,7 @@ struct Names {
         for (uint32_t i = 0; i < espParamCount(document.context(), grammar); ++i)
             if (EspParamInfo info; espParamInfo(document.context(), grammar, i, &info) == ESP_OK &&
                                    info.name == set.param.name && info.label[0])
-                return info.label;
+                return scene::paramWords(info.label).name;
         return set.param.name;
     }
 
@@ -114,6 +118,47 @@ struct Names {
         const size_t now = a.field.elements.size();
         return (now > before ? "New element of " : now < before ? "Remove elements of " : "Change ") + a.field.name;
     }
+    Name operator()(const AddSurface& a) const { return "Add " + scene::lastPart(a.file); }
+    Name operator()(const PlaceSurface& a) const {
+        const auto& surfaces = document.scene().surfaces;
+        return "Move " + (a.surface < surfaces.size() ? scene::lastPart(surfaces[a.surface].file) : "a model");
+    }
+    Name operator()(const AddGrammar& a) const { return "Add " + scene::lastPart(a.file); }
+    Name operator()(const AddGraph& a) const { return "Add " + scene::lastPart(a.file); }
+    Name operator()(const SetGraphText&) const { return kEditGraph; }
+    Name operator()(const AddNodes& a) const {
+        GraphModel added;
+        std::string ignored;
+        if (!added.read(document.context(), a.text, "", ignored) || added.nodes.empty()) return "Add nodes";
+        return "Add " + counted(added.nodes.size(), added.nodes[0].kind.c_str(), "nodes");
+    }
+    Name operator()(const RemoveNodes& a) const { return "Remove " + listed(a.nodes); }
+    Name operator()(const SetNodeInput& a) const { return a.input + " of " + a.node; }
+    Name operator()(const ConnectNodes& a) const {
+        return (a.wire.empty() ? "Unplug " : "Wire " + a.wire + " to ") + a.node + "." + a.input;
+    }
+    Name operator()(const MoveNodes& a) const { return "Move " + listed(a.nodes); }
+    Name operator()(const RenameNode& a) const { return "Rename " + a.node; }
+    Name operator()(const ShowNodes& a) const { return a.nodes.empty() ? "Show nothing" : "Show " + listed(a.nodes); }
+    Name operator()(const MuteNodes& a) const { return (a.muted ? "Mute " : "Unmute ") + listed(a.nodes); }
+    Name operator()(const ShowPlants& a) const {
+        return (a.shown ? "Show " : "Hide ") + counted(a.keys.size(), "a plant", "plants");
+    }
+    Name operator()(const ShowSurfaces& a) const {
+        return (a.shown ? "Show " : "Hide ") + counted(a.surfaces.size(), "a model", "models");
+    }
+    Name operator()(const LockSurface& a) const { return a.locked ? "Lock a model" : "Unlock a model"; }
+    Name operator()(const ShowHouses& a) const {
+        return (a.shown ? "Show " : "Hide ") + counted(a.houses.size(), "a house", "houses");
+    }
+    Name operator()(const LockHouse& a) const {
+        return (a.locked ? "Lock " : "Unlock ") + houseName(document.context(), a.house);
+    }
+    Name operator()(const LockLayer& a) const { return (a.locked ? "Lock " : "Unlock ") + a.layer; }
+    Name operator()(const SetBookmark& a) const {
+        return (a.kept ? "Bookmark " : "Remove bookmark ") + std::to_string(a.digit);
+    }
+    Name operator()(const SetLook& a) const { return "Look of " + a.terminal + " (" + ofGrammar(a.grammar) + ")"; }
     Name operator()(const ResetHouse& a) const { return "As planned: " + houseName(document.context(), a.house); }
     // Those that begin no step.
     template <class Other>

@@ -15,6 +15,7 @@ struct RenameSeeds {
     void operator()(ChangeSeeds& action) const { rename(action.seeds); }
     void operator()(RemoveSeeds& action) const { rename(action.keys); }
     void operator()(FreezeSeeds& action) const { rename(action.keys); }
+    void operator()(ShowPlants& action) const { rename(action.keys); }
     void operator()(RestoreFrozen& action) const {
         for (RestoreFrozen::Plant& plant : action.plants) plant.seed = newKey(plant.seed);
     }
@@ -33,6 +34,28 @@ struct RenameSeeds {
     void operator()(SetHouse&) const {}
     void operator()(ResetHouse&) const {}
     void operator()(SetField&) const {}
+    void operator()(AddSurface&) const {}
+    void operator()(PlaceSurface&) const {}
+    void operator()(AddGrammar&) const {}
+    void operator()(AddGraph&) const {}
+    void operator()(SetGraphText&) const {}
+    void operator()(AddNodes&) const {}
+    void operator()(RemoveNodes&) const {}
+    void operator()(SetNodeInput&) const {}
+    void operator()(ConnectNodes&) const {}
+    void operator()(MoveNodes&) const {}
+    void operator()(RenameNode&) const {}
+    void operator()(ShowNodes&) const {}
+    void operator()(MuteNodes&) const {}
+    void operator()(SetGraphTime&) const {}
+    void operator()(SetLook&) const {}
+    void operator()(SetBookmark&) const {}
+    void operator()(ShowSurfaces&) const {}
+    void operator()(LockSurface&) const {}
+    void operator()(ShowHouses&) const {}
+    void operator()(LockHouse&) const {}
+    void operator()(LockLayer&) const {}
+    void operator()(DropLast&) const {}
     void operator()(SetCamera&) const {}
     void operator()(SetView&) const {}
     void operator()(Undo&) const {}

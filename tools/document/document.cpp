@@ -27,12 +27,24 @@ Seed seedOf(const SeedRecord& record) {
     seed.direction = record.direction;
     seed.number = record.number;
     seed.frozen = record.frozen;
+    seed.hidden = record.hidden;
+    seed.line = record.line;
     for (const Param& param : record.params) seed.params.push_back(valueOf(param));
     return seed;
 }
 
 bool finite(const std::array<float, 3>& v) {
     return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+}
+
+// Of a camera or a bookmark.
+template <class View>
+bool seesSomething(const View& view, std::string& error) {
+    if (finite(view.eye) && finite(view.target) && view.eye != view.target &&
+        view.fov >= scene::fovOfDegrees(scene::kLeastFov) && view.fov <= scene::fovOfDegrees(scene::kMostFov))
+        return true;
+    error = "a camera that sees nothing";
+    return false;
 }
 
 // Within one gesture only the first value counts for undo: what later actions set is overwritten anyway.
@@ -49,12 +61,18 @@ bool overwrites(const Action& earlier, const Action& later) {
         const auto& b = std::get<SetParam>(later);
         return a->grammar == b.grammar && a->param.name == b.param.name;
     }
+    if (const auto* a = std::get_if<SetGraphText>(&earlier)) return a->graph == std::get<SetGraphText>(later).graph;
     if (const auto* a = std::get_if<SetText>(&earlier)) return a->grammar == std::get<SetText>(later).grammar;
     if (const auto* a = std::get_if<ChangeSeeds>(&earlier)) {
         const auto& b = std::get<ChangeSeeds>(later);
         return std::equal(a->seeds.begin(), a->seeds.end(), b.seeds.begin(), b.seeds.end(),
                           [](const SeedRecord& x, const SeedRecord& y) { return x.key == y.key; });
     }
+    if (const auto* a = std::get_if<SetLook>(&earlier)) {
+        const auto& b = std::get<SetLook>(later);
+        return a->grammar == b.grammar && a->terminal == b.terminal;
+    }
+    if (const auto* a = std::get_if<PlaceSurface>(&earlier)) return a->surface == std::get<PlaceSurface>(later).surface;
     if (const auto* a = std::get_if<SetField>(&earlier)) {
         const auto& b = std::get<SetField>(later);
         return a->surface == b.surface && a->field.name == b.field.name;
@@ -118,6 +136,8 @@ SeedRecord Document::recordOf(const Seed& seed) const {
     SeedRecord record{seed.key, seed.grammar, seed.position, seed.direction, seed.number};
     for (const scene::ParamValue& value : seed.params) record.params.push_back(paramOf(value));
     record.frozen = seed.frozen;
+    record.hidden = seed.hidden;
+    record.line = seed.line;
     return record;
 }
 
@@ -212,6 +232,9 @@ bool Document::move(std::vector<Step>& from, std::vector<Step>& to, std::string&
     }
     Step step = std::move(from.back());
     from.pop_back();
+    // Strokes that come after it were painted on the surface as it was loaded before.
+    const auto loads = [](const Action& action) { return std::holds_alternative<AddSurface>(action); };
+    if (&from == &undone_ && std::ranges::any_of(step.back, loads)) from.clear();
     Step opposite{step.name, 0, step.state, {}};
     while (!step.back.empty() && carryOut(step.back.back(), opposite.back, error)) step.back.pop_back();
     const bool whole = step.back.empty();
@@ -305,11 +328,13 @@ bool Document::carryOut(const ChangeSeeds& action, std::vector<Action>& back, st
         }
         inverse.seeds.push_back(recordOf(before[i]));
         inverse.seeds.back().frozen = nullptr;  // which only FreezeSeeds changes
+        inverse.seeds.back().hidden = false;    // and ShowPlants
         onlyMoved = onlyMoved && record.number == before[i].number && record.grammar == before[i].grammar &&
                     record.params == inverse.seeds.back().params;
         scene_.seeds[i] = seedOf(record);
         scene_.seeds[i].planted = before[i].planted;
         scene_.seeds[i].frozen = before[i].frozen;
+        scene_.seeds[i].hidden = before[i].hidden;
     }
     if (!(onlyMoved && allPlanted_ ? moveSeeds(action, before, error) : replant(before, error))) return false;
     back.push_back(std::move(inverse));
@@ -394,14 +419,32 @@ bool Document::carryOut(const SetWalk& action, std::vector<Action>& back, std::s
 }
 
 bool Document::carryOut(const SetCamera& action, std::vector<Action>&, std::string& error) {
-    if (!finite(action.eye) || !finite(action.target) || action.eye == action.target ||
-        !(action.fov >= scene::fovOfDegrees(scene::kLeastFov) && action.fov <= scene::fovOfDegrees(scene::kMostFov))) {
-        error = "a camera that sees nothing";
-        return false;
-    }
+    if (!seesSomething(action, error)) return false;
     std::copy(action.eye.begin(), action.eye.end(), scene_.camera.eye);
     std::copy(action.target.begin(), action.target.end(), scene_.camera.target);
     scene_.camera.fovY = action.fov;
+    return true;
+}
+
+bool Document::carryOut(const SetBookmark& action, std::vector<Action>& back, std::string& error) {
+    if (action.digit < 1 || action.digit > scene::kMostBookmarks) {
+        error = "bookmarks have the digits 1 to 9";
+        return false;
+    }
+    if (action.kept && !seesSomething(action, error)) return false;
+    std::vector<scene::Bookmark>& all = scene_.bookmarks;
+    const auto known = std::ranges::lower_bound(all, action.digit, {}, &scene::Bookmark::digit);
+    const bool there = known != all.end() && known->digit == action.digit;
+    const scene::Bookmark bookmark{action.digit, action.eye, action.target, action.fov};
+    SetBookmark before{action.digit, there};
+    if (there) before.eye = known->eye, before.target = known->target, before.fov = known->fov;
+    if (there && action.kept)
+        *known = bookmark;
+    else if (there)
+        all.erase(known);
+    else if (action.kept)
+        all.insert(known, bookmark);
+    back.push_back(before);
     return true;
 }
 
@@ -418,7 +461,8 @@ bool Document::carryOut(const SetView& action, std::vector<Action>&, std::string
 
 bool isEdit(const Action& action) {
     return !std::holds_alternative<SetCamera>(action) && !std::holds_alternative<SetView>(action) &&
-           !std::holds_alternative<Undo>(action) && !std::holds_alternative<Redo>(action);
+           !std::holds_alternative<SetGraphTime>(action) && !std::holds_alternative<Undo>(action) &&
+           !std::holds_alternative<Redo>(action);
 }
 
 }  // namespace espalier::document

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tools/document/action.hpp"
+#include "tools/document/graph_model.hpp"
 #include "tools/scene/picture.hpp"
 #include "tools/scene/scene.hpp"
 
@@ -107,6 +108,29 @@ class Document {
     bool carryOut(const SetHouse& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const ResetHouse& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetField& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const AddSurface& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const PlaceSurface& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const AddGrammar& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const AddGraph& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetGraphText& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const AddNodes& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const RemoveNodes& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetNodeInput& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const ConnectNodes& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const MoveNodes& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const RenameNode& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const ShowNodes& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const MuteNodes& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetGraphTime& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetLook& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const ShowPlants& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const ShowSurfaces& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const LockSurface& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const ShowHouses& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const LockHouse& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const LockLayer& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const SetBookmark& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const DropLast& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetCamera& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetView& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const Undo&, std::vector<Action>&, std::string& error) { return move(done_, undone_, error); }
@@ -128,6 +152,11 @@ class Document {
     bool replant(const std::vector<scene::Seed>& before, std::string& error);
     size_t indexOf(uint32_t key) const;
     Action houseBack(uint32_t index) const;
+    bool knowsHouse(uint32_t house, std::string& error) const;
+    bool mayChangeHouse(uint32_t house, std::string& error) const;  // knows it, and it isn't locked
+    bool mayPaint(const std::string& layer, std::string& error) const;
+    using GraphEdit = std::function<bool(GraphModel& model, std::string& error)>;
+    bool editGraph(uint32_t graph, std::vector<Action>& back, std::string& error, const GraphEdit& edit);
 
     EspContext* context_;
     size_t maxHistoryBytes_;
@@ -150,6 +179,7 @@ class Document {
 
 // The words for an action in menus, before it is done: "Plant 3 seeds", "Pitch of house 12".
 std::string nameOf(const Document& document, const Action& action);
+constexpr const char* kEditGraph = "Edit the graph's text";
 constexpr const char* kEditText = "Edit the text";  // these begin so, of whichever grammar
 // A grammar's file, told apart from others of the same file by its place.
 std::string grammarName(const scene::Scene& scene, size_t index);

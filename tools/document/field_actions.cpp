@@ -22,7 +22,7 @@ bool Document::carryOut(const SetField& action, std::vector<Action>& back, std::
     if (failed(set, error)) return false;
     const auto known = std::ranges::find(surface.fields, name, &scene::SceneField::name);
     const bool before = known != surface.fields.end();
-    back.push_back(SetField{action.surface, before ? *known : scene::SceneField{name}, before});
+    back.push_back(SetField{action.surface, before ? *known : scene::SceneField{.name = name, .elements = {}}, before});
     if (before && !action.said)
         surface.fields.erase(known);
     else if (before)

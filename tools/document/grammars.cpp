@@ -4,6 +4,7 @@
 #include "tools/document/document.hpp"
 #include "tools/document/params.hpp"
 #include "tools/scene/layers.hpp"
+#include "tools/scene/text_file.hpp"
 
 namespace espalier::document {
 
@@ -107,6 +108,24 @@ bool Document::carryOut(const SetText& action, std::vector<Action>& back, std::s
     const bool waits = std::ranges::any_of(
         scene_.seeds, [&](const Seed& seed) { return seed.grammar == action.grammar && !seed.params.empty(); });
     if (waits || !allPlanted_) (void)plant(ignored);
+    return true;
+}
+
+bool Document::carryOut(const SetLook& action, std::vector<Action>& back, std::string& error) {
+    if (action.grammar >= scene_.grammars.size()) {
+        error = "there is no grammar " + std::to_string(action.grammar);
+        return false;
+    }
+    scene::LoadedGrammar& grammar = scene_.grammars[action.grammar];
+    const auto whole = [](const std::string& file) { return file.empty() ? file : scene::absolutePath(file).string(); };
+    const scene::TerminalLook look{action.terminal, whole(action.mesh), whole(action.picture), action.colour};
+    SetLook before{action.grammar, action.terminal};
+    for (const scene::TerminalLook& known : grammar.looks)
+        if (known.terminal == action.terminal)
+            before.mesh = known.mesh, before.picture = known.picture, before.colour = known.colour;
+    if (!scene::setLook(context_, grammar.id, look, error)) return false;
+    scene::putLook(grammar.looks, look);
+    back.push_back(std::move(before));
     return true;
 }
 

@@ -14,12 +14,16 @@ Action Document::houseBack(uint32_t index) const {
     return ResetHouse{index};
 }
 
+bool Document::mayChangeHouse(uint32_t index, std::string& error) const {
+    if (!knowsHouse(index, error)) return false;
+    if (!scene_.town->mark(index).locked) return true;
+    error = "the house is locked, and stays as it is";
+    return false;
+}
+
 bool Document::carryOut(const SetHouse& action, std::vector<Action>& back, std::string& error) {
     const uint32_t index = action.house.index;
-    if (!scene_.town || index >= espHouseCount(context_)) {
-        error = "there is no house " + std::to_string(index);
-        return false;
-    }
+    if (!mayChangeHouse(index, error)) return false;
     House set = scene::completed(context_, action.house);  // so that taking back what follows knows all of it
     if (!scene::setHouse(context_, set, error)) return false;
     back.push_back(houseBack(index));
@@ -31,10 +35,7 @@ bool Document::carryOut(const SetHouse& action, std::vector<Action>& back, std::
 }
 
 bool Document::carryOut(const ResetHouse& action, std::vector<Action>& back, std::string& error) {
-    if (!scene_.town) {
-        error = "there is no town";
-        return false;
-    }
+    if (!mayChangeHouse(action.house, error)) return false;
     if (failed(espResetHouse(context_, action.house), error)) return false;
     back.push_back(houseBack(action.house));
     std::erase_if(scene_.town->houses, [&](const House& house) { return house.index == action.house; });

@@ -62,6 +62,7 @@ size_t keptBytes(Action& action) {
     if (const auto* add = std::get_if<AddSeeds>(&action))
         for (const SeedRecord& seed : add->seeds) frozen(seed.frozen);
     if (const auto* text = std::get_if<SetText>(&action)) bytes += text->grows.size();
+    if (const auto* text = std::get_if<SetGraphText>(&action)) bytes += text->runs.size();
     return bytes;
 }
 
@@ -82,9 +83,16 @@ bool Document::readTownLayer(const std::string& layer, scene::GreyPicture& out, 
     return !failed(espReadTownLayer(context_, layer.c_str(), out.texels.data(), &side), error);
 }
 
+bool Document::mayPaint(const std::string& layer, std::string& error) const {
+    if (!scene::isLayersName(layer, error)) return false;
+    if (std::ranges::find(scene_.lockedLayers, layer) == scene_.lockedLayers.end()) return true;
+    error = "the layer '" + layer + "' is locked, and stays as it is painted";
+    return false;
+}
+
 bool Document::carryOut(const StrokeBegin& action, std::vector<Action>&, std::string& error) {
     EspBrush brush;
-    if (!scene::isLayersName(action.layer, error) || !brushOf(action, brush, error)) return false;
+    if (!mayPaint(action.layer, error) || !brushOf(action, brush, error)) return false;
     strokeName_ = nameOf(*this, action);
     const std::vector<std::string> channels = channelsOf(scene_, action.layer);
     for (size_t c = 0; c < channels.size(); ++c) {
@@ -157,7 +165,7 @@ void Document::exchangeUnread(const StrokeRecord& stroke) {
 }
 
 bool Document::carryOut(const FillLayer& action, std::vector<Action>& back, std::string& error) {
-    if (!scene::isLayersName(action.layer, error)) return false;
+    if (!mayPaint(action.layer, error)) return false;
     const std::vector<std::string> channels = channelsOf(scene_, action.layer);
     for (size_t c = 0; c < channels.size(); ++c) {
         EspStroke filled{};
@@ -191,7 +199,7 @@ bool Document::carryOut(const LoadLayer& action, std::vector<Action>& back, std:
         error = "there is no surface " + std::to_string(action.surface);
         return false;
     }
-    if (!scene::isLayersName(action.layer, error)) return false;
+    if (!mayPaint(action.layer, error)) return false;
     const Picture picture = pictureIn(action.picture, scene_, action.layer, action.file, error);
     if (!picture) return false;
     const std::vector<std::string> channels = channelsOf(scene_, action.layer);
@@ -208,7 +216,7 @@ bool Document::carryOut(const LoadLayer& action, std::vector<Action>& back, std:
 }
 
 bool Document::carryOut(const LoadTownLayer& action, std::vector<Action>& back, std::string& error) {
-    if (!scene::isLayersName(action.layer, error)) return false;
+    if (!mayPaint(action.layer, error)) return false;
     const Picture picture = pictureIn(action.picture, scene_, action.layer, action.file, error);
     if (!picture) return false;
     const std::vector<std::string> channels = channelsOf(scene_, action.layer);

@@ -30,11 +30,15 @@ void describeLook(const scene::Scene& scene, SceneFile& out) {
     out.shadows = scene.look.shadows != 0;
     if (three(own.wind) != std::array<float, 3>{}) out.wind = three(own.wind);
     out.gusts = own.gusts;
-    if (own.ground) out.groundLevel = own.groundLevel;
+    if (own.ground) {
+        out.groundLevel = own.groundLevel;
+        out.ground = EspGround(own.ground);
+    }
     out.groundOvergrows = own.groundOvergrows != 0;
     out.hasCamera = true;
     out.eye = three(scene.camera.eye);
     out.target = three(scene.camera.target);
+    out.bookmarks = scene.bookmarks;
     // At its limits it may be written as a neighbour beyond them.
     out.fov = std::clamp(scene::degreesOf(scene.camera.fovY, scene::fovOfDegrees), scene::kLeastFov, scene::kMostFov);
 }
@@ -51,7 +55,8 @@ SceneFile describe(const Document& document) {
     SceneFile out;
     out.project = SceneFile::kProjectVersion;
     for (const scene::LoadedSurface& surface : scene.surfaces)
-        out.surfaces.push_back({surface.file, surface.placing, surface.drawn, surface.fields});
+        out.surfaces.push_back(
+            {surface.file, surface.placing, surface.drawn, surface.fields, surface.hidden, surface.locked});
     // Their order tells seeds of one number apart, whichever grammars they are of.
     const bool mixed = !std::ranges::is_sorted(scene.seeds, {}, &scene::Seed::grammar);
     for (size_t i = 0; i < scene.grammars.size(); ++i) {
@@ -62,6 +67,7 @@ SceneFile describe(const Document& document) {
         if (grammar.text != grammar.grows) described.grows = grammar.grows;
         for (const scene::ParamValue& value : scene::changedParams(document.context(), grammar.id))
             described.params.push_back({value, {}});
+        described.looks = grammar.looks;
         for (const scene::ParamValue& value : grammar.unset) described.params.push_back({value, {}});
         for (uint32_t place = 0; place < scene.seeds.size(); ++place) {
             if (scene.seeds[place].grammar != i) continue;
@@ -72,10 +78,17 @@ SceneFile describe(const Document& document) {
         }
     }
     out.town = scene.town;
-    if (out.town)
+    if (out.town) {
         for (scene::House& house : out.town->houses) house.id = idOf(document.context(), house.index);
+        for (scene::HouseMark& mark : out.town->marks) mark.id = idOf(document.context(), mark.index);
+    }
+    out.lockedLayers = scene.lockedLayers;
     out.site = scene.site;
     out.pieces = scene.pieces;
+    for (const scene::LoadedGraph& graph : scene.graphs) {
+        out.graphs.push_back({graph.file, graph.text});
+        if (graph.text != graph.runs) out.graphs.back().runs = graph.runs;
+    }
     out.walk = scene.grow.walk;
     out.pruned.resize(espPrunedCount(document.context()));
     for (uint32_t i = 0; i < out.pruned.size(); ++i) (void)espPrunedAt(document.context(), i, &out.pruned[i]);

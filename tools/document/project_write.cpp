@@ -87,8 +87,12 @@ bool writeLayers(ProjectData& data, const Folder& home, Progress& progress, std:
 // A project that names a file otherwise than the disk does couldn't be opened.
 bool canName(const std::string& folder, const SceneFile& file, std::string& error) {
     std::vector<std::string> names{file.site, file.pieces, file.town ? file.town->file : ""};
+    for (const scene::SceneGraph& graph : file.graphs) names.push_back(graph.file);
     for (const scene::SceneSurface& surface : file.surfaces) names.push_back(surface.file);
-    for (const scene::SceneGrammar& grammar : file.grammars) names.push_back(grammar.file);
+    for (const scene::SceneGrammar& grammar : file.grammars) {
+        names.push_back(grammar.file);
+        for (const scene::TerminalLook& look : grammar.looks) names.insert(names.end(), {look.mesh, look.picture});
+    }
     const fs::path from = scene::absolutePath(folder).lexically_normal();
     const auto bad = std::ranges::find_if(names, [&](const std::string& name) {
         return !name.empty() &&
@@ -129,8 +133,17 @@ const char* fileOf(Kept kept) {
     return kept == Kept::autosave ? scene::kAutosaveFile : scene::kProjectFile;
 }
 
-// What isn't complete in the end leaves no files: a disk that was full has room again.
-bool write(ProjectData data, const std::string& folder, Kept kept, Progress& progress, std::string& error) {
+// The folders of a path that aren't there yet, the innermost first.
+std::vector<fs::path> missingFolders(const std::string& folder) {
+    std::vector<fs::path> missing;
+    std::error_code ignored;
+    for (fs::path at = scene::absolutePath(folder).lexically_normal();
+         at.has_relative_path() && !fs::exists(at, ignored); at = at.parent_path())
+        if (at.has_filename()) missing.push_back(at);
+    return missing;
+}
+
+bool writeInto(ProjectData data, const std::string& folder, Kept kept, Progress& progress, std::string& error) {
     const bool keeps = kept == Kept::autosave;  // which has other places, and nobody waits for
     WriteLock lock;
     if (!canName(folder, data.file, error) || !makeFolderDurably(folder, error) ||
@@ -143,6 +156,17 @@ bool write(ProjectData data, const std::string& folder, Kept kept, Progress& pro
                       progress.at(1) && writeScene(home, fileOf(kept), data.file, error);
     if (good && !keeps) home.remove(scene::kAutosaveFile);
     sweepProject(home, data.history);
+    return good;
+}
+
+// What isn't complete in the end leaves no files, so that a disk that was full has room again, and no folders that were
+// made for it.
+bool write(ProjectData data, const std::string& folder, Kept kept, Progress& progress, std::string& error) {
+    const std::vector<fs::path> made = missingFolders(folder);
+    const bool good = writeInto(std::move(data), folder, kept, progress, error);
+    std::error_code inUse;
+    for (const fs::path& empty : made)
+        if (good || !fs::remove(empty, inUse)) break;
     return good;
 }
 

@@ -41,11 +41,18 @@ bool readHead(const std::string& text, RunHead& head, std::string& error) {
     return error.empty();
 }
 
-// The picture that it reads; null: none.
-std::string* fileOf(Action& action) {
-    if (auto* load = std::get_if<LoadLayer>(&action)) return &load->file;
-    if (auto* load = std::get_if<LoadTownLayer>(&action)) return &load->file;
-    return nullptr;
+// The files that it reads.
+std::vector<std::string*> filesOf(Action& action) {
+    if (auto* load = std::get_if<LoadLayer>(&action)) return {&load->file};
+    if (auto* load = std::get_if<LoadTownLayer>(&action)) return {&load->file};
+    if (auto* add = std::get_if<AddSurface>(&action)) return {&add->file};
+    if (auto* add = std::get_if<AddGrammar>(&action)) return {&add->file};
+    if (auto* add = std::get_if<AddGraph>(&action)) return {&add->file};
+    std::vector<std::string*> files;
+    if (auto* look = std::get_if<SetLook>(&action))
+        for (std::string* file : {&look->mesh, &look->picture})
+            if (!file->empty()) files.push_back(file);
+    return files;
 }
 
 bool readLines(const std::string& path, Run& out, std::string& error) {
@@ -93,7 +100,7 @@ bool readLines(const std::string& path, Run& out, std::string& error) {
     };
     find(out.head.scene);
     for (RunLine& line : out.lines)
-        if (std::string* file = fileOf(line.action)) find(*file);
+        for (std::string* file : filesOf(line.action)) find(*file);
     return true;
 }
 
@@ -143,7 +150,7 @@ void Recorder::note(const Action& action, uint32_t gesture) {
     if (!file_) return;
     if (std::holds_alternative<SetCamera>(action)) camera_ = action;
     RunLine line{frame_, gesture, action, 0};
-    if (std::string* file = fileOf(line.action)) *file = beside(*file);
+    for (std::string* file : filesOf(line.action)) *file = beside(*file);
     write(toJson(line));
 }
 

@@ -110,9 +110,10 @@ void clear(const Folder& folder, F&& unwanted) {
 void sweepProject(const Folder& home, const std::vector<std::string>& kept) {
     Hashes wanted;
     size_t texts = 0;
+    // First what a program that was killed has left: what only such a text names, nothing opens any more.
+    clear(home, [](const std::string&) { return false; });
     if (!addHashesIn(home, 0, texts, wanted)) return;
     for (const std::string& file : kept) addHashes(file, wanted);
-    clear(home, [](const std::string&) { return false; });
     for (const char* place : {kLayers, kPlants, kSurfaces}) {
         std::string none;
         const Folder folder = home.in(place, false, none);

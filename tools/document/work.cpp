@@ -16,8 +16,10 @@ Work::~Work() {
     if (thread_.valid()) thread_.wait();
 }
 
+// What was called off has failed at nothing, though a writer that stops half-way says so.
 bool Work::end(State state) {
     state_ = state;
+    if (state == State::cancelled) error_.clear();
     return false;
 }
 

@@ -53,7 +53,8 @@ class Work {
 
     State state() const { return state_; }
     bool reading() const { return state_ == State::underWay && !thread_.valid() && !besideDone_; }
-    const std::string& error() const { return error_; }  // when it failed
+    // When it failed; before, a thread may be writing it.
+    std::string error() const { return state_ == State::failed ? error_ : ""; }
     std::string note() const { return plan_.note ? *plan_.note : ""; }
     float progress() const;  // 0 to 1
 

@@ -24,10 +24,17 @@ float chance(uint32_t seed, uint32_t index) {
     return float(x >> 8) / 16777216.f;
 }
 
-// Seeds where rays from all around meet the model's lower part. They are aimed at places spread evenly over its ground
-// plan, so that of pieces that lie apart each gets its share; what leads through a gap is aimed at the middle.
+// So many plants around a foot of this size: few hide a slim model.
+uint32_t seedsAround(const float size[3]) {
+    constexpr float kMost = 16, kLeast = 3;
+    return uint32_t(std::clamp(std::ceil(kMost * .5f * (size[0] + size[2]) / std::max(size[1], 1e-6f)), kLeast, kMost));
+}
+
+// Seeds where rays from all around meet the model's foot: they stand in the ground. They are aimed at places spread
+// evenly over its ground plan, so that of pieces that lie apart each gets its share; what leads through a gap is aimed
+// at the middle.
 void plantAround(const EspContext* context, const EspSurfaceInfo& info, uint32_t number, Scene& scene) {
-    constexpr uint32_t kSeeds = 16;
+    constexpr float kHighest = .02f;                         // of the model's height
     constexpr float kPlanX = .7548777f, kPlanZ = .5698403f;  // of the evenest sequence of points in a square
     float centre[3], size[3];
     for (int i = 0; i < 3; ++i) {
@@ -35,9 +42,10 @@ void plantAround(const EspContext* context, const EspSurfaceInfo& info, uint32_t
         size[i] = info.boundsMax[i] - info.boundsMin[i];
     }
     const float far = std::sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
-    for (uint32_t i = 0; i < kSeeds; ++i) {
-        const float angle = 2 * std::numbers::pi_v<float> * (float(i) + .7f * chance(number, 3 * i)) / kSeeds;
-        const float height = info.boundsMin[1] + size[1] * (.04f + .12f * chance(number, 3 * i + 1));
+    const uint32_t seeds = seedsAround(size);
+    for (uint32_t i = 0; i < seeds; ++i) {
+        const float angle = 2 * std::numbers::pi_v<float> * (float(i) + .7f * chance(number, 3 * i)) / float(seeds);
+        const float height = info.boundsMin[1] + size[1] * kHighest * (.1f + .9f * chance(number, 3 * i + 1));
         const float outX = std::sin(angle), outZ = std::cos(angle), inward[3] = {-outX, 0, -outZ};
         const auto aimAt = [&](float x, float z, EspHit& hit) {
             const float origin[3] = {x + far * outX, height, z + far * outZ};
@@ -73,9 +81,9 @@ void plantInSight(const EspContext* context, uint32_t number, Scene& scene) {
     scene.seeds.push_back(seed);
 }
 
-bool makesPatterns(const EspContext* context, const LoadedGrammar& grammar) {
+bool makesPatterns(const EspContext* context, EspGrammar grammar) {
     EspGrammarKind kind;
-    return espGrammarKind(context, grammar.id, &kind) == ESP_OK && kind == ESP_GRAMMAR_PATTERNS;
+    return espGrammarKind(context, grammar, &kind) == ESP_OK && kind == ESP_GRAMMAR_PATTERNS;
 }
 
 float largestSide(const EspSurfaceInfo& info) {
@@ -86,52 +94,63 @@ float largestSide(const EspSurfaceInfo& info) {
 
 constexpr float kAbove = .001f;  // of its size, that a model stands above the ground: a pixel or so
 
-// Lengths of the default ivy suit a wall of some metres. What is smaller is a model of something large: its leaves are
-// smaller, never larger than life; and stems are to get half-way up whatever it is.
-void fitToModel(EspContext* context, const EspSurfaceInfo& info, const LoadedGrammar& grammar) {
-    // A pattern's lengths suit a model of two metres.
-    const float side = largestSide(info);
-    const float scale = makesPatterns(context, grammar) ? side / 2 : std::min(1.f, side / 12);
-    for (uint32_t i = 0; i < espParamCount(context, grammar.id); ++i) {
-        EspParamInfo param;
-        if (espParamInfo(context, grammar.id, i, &param) != ESP_OK) continue;
-        const float reach = .5f * (info.boundsMax[1] - info.boundsMin[1]) / scale;
-        if (!std::strcmp(param.name, "scale")) espSetParam(context, grammar.id, "scale", &scale, 1);
-        if (!std::strcmp(param.name, "reach") && reach > param.value[0]) {
-            const float most = std::min(reach, param.high);
-            espSetParam(context, grammar.id, "reach", &most, 1);
-        }
-    }
-}
-
 // glTF's unit is the metre, but many scans come in another: a statue of a centimetre, or of a kilometre, is shown as
 // one of two metres, so that ivy on it is ivy.
 bool loadAtLivingSize(EspContext* context, LoadedSurface& surface, EspSurfaceInfo& info, std::string& error) {
-    constexpr float kSmallest = .1f, kLargest = 500, kUsual = 2;
     for (int attempt = 0; attempt < 2; ++attempt) {
         const EspTransform place = surface.placing.transform();
         if (!fromContext(context, espLoadSurface(context, surface.file.c_str(), &place, &surface.id), error) ||
             !fromContext(context, espSurfaceInfo(context, surface.id, &info), error))
             return false;
-        const float size = largestSide(info);
-        if (attempt == 1 || (size >= kSmallest && size <= kLargest) || !(size > 0)) return true;
-        surface.placing.scale = kUsual / size;
+        const float scale = livingScale(largestSide(info));
+        if (attempt == 1 || scale == 1) return true;
+        surface.placing.scale = scale;
         if (!fromContext(context, espDestroySurface(context, surface.id), error)) return false;
     }
     return true;
 }
 
-// What stands alone gets something to stand on, below all of it, floors too. The eye is not to be below it.
+}  // namespace
+
+// What stands alone gets something to stand on, below all of it, floors too: a studio's floor, under a light that shows
+// forms and colours. The eye is not to be below it.
 void layGround(float level, Scene& scene) {
-    scene.ownLook.ground = 1;
-    scene.ownLook.groundLevel = level;
-    scene.ownLook.groundOvergrows = 0;
+    EspLook& look = scene.ownLook;
+    look.ground = ESP_GROUND_STUDIO;
+    look.groundLevel = level;
+    look.groundOvergrows = 0;
+    const auto set = [](float(&to)[3], float r, float g, float b) { to[0] = r, to[1] = g, to[2] = b; };
+    set(look.sunDirection, .62f, .66f, .55f);
+    set(look.sunColour, 2.6f, 2.36f, 2.0f);
+    set(look.skyColour, .80f, .87f, .98f);
+    set(look.groundColour, .46f, .43f, .38f);
+    set(look.background, .24f, .29f, .35f);
+    set(look.horizon, .45f, .47f, .49f);
     EspCamera& camera = scene.camera;
     const float away = std::hypot(camera.eye[0] - camera.target[0], camera.eye[2] - camera.target[2]);
     camera.eye[1] = std::max(camera.eye[1], level + .02f * away);
 }
 
-}  // namespace
+float livingScale(float side) {
+    constexpr float kSmallest = .1f, kLargest = 500, kUsual = 2;
+    return (side >= kSmallest && side <= kLargest) || !(side > 0) ? 1 : kUsual / side;
+}
+
+// Leaves of a model of something large are smaller, never larger than life; and stems are to get well up whatever
+// it is.
+std::vector<ParamValue> fittingParams(const EspContext* context, EspGrammar grammar, float side, float height) {
+    const bool pattern = makesPatterns(context, grammar);  // whose lengths suit a model of two metres
+    const float scale = pattern ? side / 2 : std::min(1.f, side / 6), reach = .7f * height / scale;
+    std::vector<ParamValue> values;
+    for (uint32_t i = 0; i < espParamCount(context, grammar); ++i) {
+        EspParamInfo param;
+        if (espParamInfo(context, grammar, i, &param) != ESP_OK) continue;
+        if (!std::strcmp(param.name, "scale")) values.push_back({"scale", {scale}});
+        if (!std::strcmp(param.name, "reach") && reach > param.value[0])
+            values.push_back({"reach", {std::min(reach, param.high)}});
+    }
+    return values;
+}
 
 bool isSurface(const std::string& path, std::string& error) {
     std::string text;
@@ -142,8 +161,9 @@ bool isSurface(const std::string& path, std::string& error) {
     const std::string ending = std::filesystem::path(path).extension().string();
     const bool model = glb || (ending == ".gltf" && text.find("\"asset\"") != std::string::npos) || ending == ".obj" ||
                        ending == ".ply" || ending == ".stl" || ending == ".fbx";
-    error = path + (model ? ": isn't baked yet: espalier-bake " + path + " -o SURFACE.glb (tools/run does it for you)"
-                          : ": neither a scene (.json), a town (.geojson) nor a baked surface (.glb)");
+    error =
+        path + (model ? ": isn't baked yet: espalier-bake " + path + " -o SURFACE.glb (tools/run does it for you)"
+                      : ": neither a scene (.json), a town (.geojson), a graph (.graph) nor a baked surface (.glb)");
     return false;
 }
 
@@ -158,9 +178,11 @@ bool openSurface(EspContext* context, const Request& request, Scene& out, std::s
     grammar.file = request.grammar.empty() ? contentFolder() + "/grammars/" + standard : request.grammar;
     if (!compileFile(context, grammar, error)) return false;
     out.grammars.push_back(grammar);
-    fitToModel(context, info, grammar);
+    for (const ParamValue& value :
+         fittingParams(context, grammar.id, largestSide(info), info.boundsMax[1] - info.boundsMin[1]))
+        (void)espSetParam(context, grammar.id, value.name.c_str(), value.value.data(), value.count);
     out.camera = esp::frameAll(context);
-    if (makesPatterns(context, grammar))
+    if (makesPatterns(context, grammar.id))
         plantInSight(context, request.seed.value_or(1), out);
     else
         plantAround(context, info, request.seed.value_or(1), out);

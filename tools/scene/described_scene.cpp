@@ -71,6 +71,18 @@ bool loadGrammar(EspContext* context, const SceneGrammar& described, Scene& out,
     return true;
 }
 
+// A project opens with what can be read of them, and keeps the others.
+bool loadLooks(EspContext* context, const SceneGrammar& described, Scene& out, LoadedGrammar& grammar,
+               std::string& error) {
+    for (const TerminalLook& look : described.looks) {
+        putLook(grammar.looks, look);
+        if (setLook(context, grammar.id, look, error)) continue;
+        if (!out.project) return false;
+        out.notes.push_back(std::exchange(error, {}) + "; '" + look.terminal + "' looks as shipped");
+    }
+    return true;
+}
+
 bool readFrozen(Seed& seed, std::string& error) {
     std::string bytes;
     if (!readText(seed.frozenFile, bytes, error)) return false;
@@ -102,6 +114,9 @@ bool loadSurfaces(EspContext* context, const SceneFile& file, Parts& parts, Scen
         surface.kept = KeptFile::open(surface.file);
         const auto load = surface.drawn ? espLoadSurface : espLoadGround;
         if (!fromContext(context, load(context, surface.file.c_str(), &place, &surface.id), error)) return false;
+        surface.hidden = described.hidden;
+        surface.locked = described.locked;
+        if (surface.hidden && !fromContext(context, espHideSurface(context, surface.id, 1), error)) return false;
         surface.fields = described.fields;
         if (!fromContext(context, setFields(context, surface.id, surface.fields), error)) return false;
     }
@@ -123,6 +138,7 @@ bool loadGrammars(EspContext* context, const Request& request, const SceneFile& 
         grammar.file = described.file;
         parts.begin(grammar.file);
         if (!loadGrammar(context, described, out, grammar, error)) return false;
+        if (!loadLooks(context, described, out, grammar, error)) return false;
         out.grammars.push_back(grammar);
         for (Seed seed : described.seeds) {
             seed.grammar = uint32_t(i);
@@ -225,6 +241,7 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
     out.pieces = file.pieces;
     if (!out.pieces.empty() && !fromContext(context, espSetPieces(context, out.pieces.c_str()), error)) return false;
     if (!loadGrammars(context, request, file, parts, out, error)) return false;
+    if (!loadGraphs(context, file.graphs, out, error)) return false;
     for (uint64_t branch : file.pruned)
         if (!fromContext(context, espPruneBranch(context, branch, 1), error)) return false;
     out.town = file.town;
@@ -237,6 +254,7 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         if (!out.project) return false;
         out.notes.push_back(std::exchange(error, {}));
     }
+    out.lockedLayers = file.lockedLayers;
     noteLayers(context, out);
     if (!fillLayers(context, request, file, out, error)) return false;
     if (!layLayers(context, request, file, parts, out, error)) return false;
@@ -245,6 +263,8 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
         std::copy(file.eye.begin(), file.eye.end(), out.camera.eye);
         std::copy(file.target.begin(), file.target.end(), out.camera.target);
     }
+    out.bookmarks = file.bookmarks;
+    std::ranges::sort(out.bookmarks, {}, &Bookmark::digit);
     if (file.fov > 0) out.camera.fovY = fovOfDegrees(file.fov);
     file.applyLook(out.ownLook);
     out.hour = file.hour;

@@ -2,6 +2,7 @@
 // what was painted over it.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -12,25 +13,32 @@
 namespace espalier::scene {
 namespace {
 
-// The place of the house that a project knows by an id: the plan may have got and lost others since. Of several of one
-// name it is the one at its old place.
-std::optional<uint32_t> placeOf(const EspContext* context, const House& house) {
-    std::optional<uint32_t> found;
-    for (uint32_t i = 0; i < espHouseCount(context); ++i) {
-        EspHouseInfo info;
-        if (espHouseInfo(context, i, &info) != ESP_OK || house.id != info.id) continue;
-        if (!found || i == house.index) found = i;
+// The places of houses that a project knows by an id: the plan may have got and lost others since.
+class HousePlaces {
+  public:
+    explicit HousePlaces(const EspContext* context) {
+        for (uint32_t i = 0; i < espHouseCount(context); ++i)
+            if (EspHouseInfo info; espHouseInfo(context, i, &info) == ESP_OK) byId_[info.id].push_back(i);
     }
-    return found;
-}
+    // Of several of one name it is the one at its old place. Without an id it is that place.
+    std::optional<uint32_t> of(const std::string& id, uint32_t index) const {
+        if (id.empty()) return index;
+        const auto named = byId_.find(id);
+        if (named == byId_.end()) return std::nullopt;
+        return std::ranges::binary_search(named->second, index) ? index : named->second.front();
+    }
+
+  private:
+    std::map<std::string, std::vector<uint32_t>> byId_;
+};
 
 // A project keeps what it can: a house that is gone, or whose plan leaves no room for it, is told of.
-bool changeHouses(EspContext* context, Scene& out, std::string& error) {
+bool changeHouses(EspContext* context, const HousePlaces& places, Scene& out, std::string& error) {
     SceneTown& town = *out.town;
     std::vector<House> kept;
     for (House house : town.houses) {
         const std::string name = house.id.empty() ? std::to_string(house.index) : "'" + house.id + "'";
-        const std::optional<uint32_t> place = house.id.empty() ? house.index : placeOf(context, house);
+        const std::optional<uint32_t> place = places.of(house.id, house.index);
         house.id.clear();
         house.index = place.value_or(house.index);
         std::string why = "the plan has none of this name any more";
@@ -49,7 +57,37 @@ bool changeHouses(EspContext* context, Scene& out, std::string& error) {
     return true;
 }
 
+// What is said of a house that the plan has no more goes with it.
+bool markHouses(EspContext* context, const HousePlaces& places, Scene& out, std::string& error) {
+    for (HouseMark mark : std::exchange(out.town->marks, {})) {
+        const std::optional<uint32_t> place = places.of(mark.id, mark.index);
+        if (place && *place < espHouseCount(context)) {
+            mark.index = *place;
+            mark.id.clear();
+            out.town->setMark(mark);
+            if (mark.hidden && !fromContext(context, espHideHouse(context, *place, 1), error)) return false;
+            continue;
+        }
+        error = out.town->file + ": 'marks': there is no house " +
+                (mark.id.empty() ? std::to_string(mark.index) : "'" + mark.id + "'");
+        if (!out.project) return false;
+        out.notes.push_back(std::exchange(error, {}));
+    }
+    return true;
+}
+
 }  // namespace
+
+HouseMark SceneTown::mark(uint32_t house) const {
+    const auto found = std::ranges::lower_bound(marks, house, {}, &HouseMark::index);
+    return found == marks.end() || found->index != house ? HouseMark{house} : *found;
+}
+
+void SceneTown::setMark(const HouseMark& mark) {
+    auto at = std::ranges::lower_bound(marks, mark.index, {}, &HouseMark::index);
+    if (at != marks.end() && at->index == mark.index) at = marks.erase(at);
+    if (mark.hidden || mark.locked) marks.insert(at, mark);
+}
 
 bool loadTown(EspContext* context, Scene& out, std::string& error) {
     const SceneTown& town = *out.town;
@@ -69,7 +107,8 @@ bool loadTown(EspContext* context, Scene& out, std::string& error) {
         const House house = houseNow(context, i);
         out.plannedRoofs.push_back({house.shape, house.slope, house.eaveHeight});
     }
-    if (!changeHouses(context, out, error)) return false;
+    const HousePlaces places(context);
+    if (!changeHouses(context, places, out, error) || !markHouses(context, places, out, error)) return false;
     if (setTownGrammar(context, out, error)) return true;
     error = town.file + ": its houses have no roofs: " + error;
     if (out.project) out.notes.push_back(std::exchange(error, {}));

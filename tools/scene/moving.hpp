@@ -114,6 +114,8 @@ class MovingPicture {
         coarse_ = hurried_;
     }
 
+    // Before drew(): the picture that prepare() was told of is a coarse one.
+    bool hurried() const { return hurried_; }
     // As prepare() gave it last.
     float share() const { return shown_; }
     // The picture that is shown is a coarse one, to be drawn again when nothing moves.

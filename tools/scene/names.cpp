@@ -11,6 +11,7 @@ namespace espalier::scene {
 namespace {
 
 constexpr const char* kViews[] = {"shaded", "charts", "normals", "lod", "layer", "depth", "overdraw", "field"};
+constexpr const char* kGrounds[] = {"none", "meadow", "studio"};
 constexpr const char* kWalks[] = {"intrinsic", "paper"};
 
 }  // namespace
@@ -21,6 +22,14 @@ bool viewNamed(const std::string& name, EspView& out) {
 
 const char* nameOf(EspView view) {
     return size_t(view) < std::size(kViews) ? kViews[view] : "shaded";
+}
+
+bool groundNamed(const std::string& name, EspGround& out) {
+    return valueNamed(kGrounds, name, out);
+}
+
+const char* nameOf(EspGround ground) {
+    return kGrounds[ground];
 }
 
 bool walkNamed(const std::string& name, EspWalkMode& out) {

@@ -96,6 +96,10 @@ bool takeProject(std::string& file, std::string& error) {
     return true;
 }
 
+bool isGraph(const std::string& file) {
+    return std::filesystem::path(file).extension() == ".graph";
+}
+
 bool isDescribed(const std::string& file) {
     return std::filesystem::path(file).extension() == ".json";
 }
@@ -111,7 +115,7 @@ std::string lastPart(const std::string& file) {
 bool mayOpen(const std::string& asked, std::string& error) {
     std::string file = absolutePath(asked).string(), text;
     if (!takeProject(file, error)) return false;
-    const bool town = isTown(file);
+    const bool town = isTown(file) || isGraph(file);
     if (!town && !isDescribed(file)) return isSurface(file, error);
     SceneFile read;
     return readText(file, text, error) && (town || readSceneText(file, text, read, error));
@@ -127,7 +131,10 @@ bool openScene(EspContext* context, const Request& asked, Scene& out, std::strin
     out.name = lastPart(asked.file);
     out.ownLook = esp::defaults<EspLook>();
     out.grow = request.grow;
-    const auto open = isTown(request.file) ? openTown : isDescribed(request.file) ? openDescription : openSurface;
+    const auto open = isGraph(request.file)       ? openGraph
+                      : isTown(request.file)      ? openTown
+                      : isDescribed(request.file) ? openDescription
+                                                  : openSurface;
     if (!open(context, request, out, error)) return false;
     plantMore(request.times, out.seeds);
     out.grow.walk = request.walk.value_or(out.grow.walk);
@@ -195,7 +202,7 @@ bool plantOne(EspContext* context, Scene& scene, Seed& seed, std::string& error)
         seed.frozen = nullptr;
         if (!seed.frozenFile.empty()) scene.unreadPlants[seed.key] = seed.frozenFile;
     }
-    return true;
+    return !seed.hidden || fromContext(context, espHideSeed(context, seed.planted, 1), error);
 }
 
 }  // namespace

@@ -44,10 +44,19 @@ struct Placing {
 struct LoadedSurface {
     std::string file;
     Placing placing;
-    bool drawn = true;  // false: it is ground only, and something else draws it
+    bool drawn = true;                    // false: it is ground only, and something else draws it
+    bool hidden = false, locked = false;  // in the editor: not seen; stays where it is
     EspSurface id{};
     std::shared_ptr<const KeptFile> kept = {};  // as it was loaded; null: it couldn't be kept
     std::vector<SceneField> fields = {};
+};
+
+// A house that is hidden or locked in the editor: not seen; stays as it is.
+struct HouseMark {
+    uint32_t index = 0;
+    std::string id = {};  // that a project knows it by, as House::id
+    bool hidden = false, locked = false;
+    bool operator==(const HouseMark&) const = default;
 };
 
 // A town of the scene.
@@ -57,7 +66,10 @@ struct SceneTown {
     Placing placing;   // of scale 1
     bool ground = true;
     std::optional<std::array<float, 3>> groundColour;
-    std::vector<House> houses = {};  // that aren't as the file says, by index
+    std::vector<House> houses = {};     // that aren't as the file says, by index
+    std::vector<HouseMark> marks = {};  // by index
+    HouseMark mark(uint32_t house) const;
+    void setMark(const HouseMark& mark);  // one that says nothing goes
     bool operator==(const SceneTown&) const = default;
 };
 
@@ -68,14 +80,33 @@ struct ParamValue {
     bool operator==(const ParamValue&) const = default;
 };
 
+// How one kind of terminal of a grammar looks, such as its leaves, in place of the shipped meshes.
+struct TerminalLook {
+    std::string terminal;       // "leaf", "bark" ...: a name that espTerminalName gives
+    std::string mesh, picture;  // files; empty: as shipped
+    std::vector<float> colour;  // linear, three; empty: as shipped
+    bool plain() const { return mesh.empty() && picture.empty() && colour.empty(); }
+    bool operator==(const TerminalLook&) const = default;
+};
+
 struct LoadedGrammar {
-    std::string file;               // where it came from; what it includes lies beside it
-    std::string text;               // as it stands in the editor; it may have mistakes
-    std::string grows;              // the text that was compiled last and grows
-    std::string error;              // of `text`; empty: it grows
-    std::string warnings;           // of `text` while it grows, a line each
-    std::vector<ParamValue> unset;  // while `text` has mistakes: values of parameters that only it may have
+    std::string file;                      // where it came from; what it includes lies beside it
+    std::string text;                      // as it stands in the editor; it may have mistakes
+    std::string grows;                     // the text that was compiled last and grows
+    std::string error;                     // of `text`; empty: it grows
+    std::string warnings;                  // of `text` while it grows, a line each
+    std::vector<ParamValue> unset;         // while `text` has mistakes: values of parameters that only it may have
+    std::vector<TerminalLook> looks = {};  // by terminal, none plain; of a project, also those whose files are lost
     EspGrammar id{};
+};
+
+// A procedural graph.
+struct LoadedGraph {
+    std::string file;   // where it came from, or is to be written to; what it reads lies beside it
+    std::string text;   // as it stands in the editor; it may have mistakes
+    std::string runs;   // the text that was compiled last, and runs
+    std::string error;  // of `text`; empty: it runs
+    EspGraph id{};
 };
 
 // A plant that stands as it is, as espReadFrozen gave it.
@@ -89,7 +120,10 @@ struct Seed {
     std::vector<ParamValue> params;  // in place of its grammar's
     FrozenPlant frozen = {};         // null: it grows
     std::string frozenFile;          // where a scene file keeps that
-    uint32_t place = 0;              // in a scene file: among the seeds of all its grammars
+    bool hidden = false;             // nothing grows from it until it is shown
+    // The line that its plant was led along, point by point: position and normal, world. Its directions are painted.
+    std::vector<std::array<float, 6>> line = {};
+    uint32_t place = 0;  // in a scene file: among the seeds of all its grammars
     EspSeed planted{};
 };
 
@@ -104,7 +138,18 @@ struct SceneLayer {
 
 constexpr float kMostExposure = 20;             // stops, up or down
 constexpr float kLeastFov = 1, kMostFov = 170;  // degrees
-constexpr float kOwnSun = -1;                   // no hour: the scene's own light
+constexpr float kGraphRate = 30, kMostGraphRate = 1000;
+constexpr uint32_t kMostGraphFrame = 16777216;
+constexpr float kOwnSun = -1;  // no hour: the scene's own light
+
+// A view that is kept under a digit.
+struct Bookmark {
+    uint32_t digit = 1;  // 1 to 9
+    std::array<float, 3> eye{}, target{};
+    float fov = .7f;  // radians
+    bool operator==(const Bookmark&) const = default;
+};
+constexpr uint32_t kMostBookmarks = 9;
 
 // A scene whose surfaces, grammars and layers are in a context. Seeds are planted by plantAll.
 struct Scene {
@@ -122,17 +167,22 @@ struct Scene {
     std::vector<PlannedRoof> plannedRoofs;  // [house] as the town's file says
     std::string site;                       // file of what furnishes it; empty: nothing does
     std::string pieces;                     // palette of patterns; empty: the shipped one
+    std::vector<LoadedGraph> graphs;
+    uint32_t graphFrame = 0;       // that the graphs show
+    float graphRate = kGraphRate;  // frames a second of their time
     EspGrowDef grow = esp::defaults<EspGrowDef>();
     std::vector<std::string> layers;  // that grammars read; then those that are painted and that none reads any more
     std::vector<std::string> colourLayers;  // those of them that are colours (tools/scene/layers.hpp)
+    std::vector<std::string> lockedLayers;  // by name: they can't be painted
     std::vector<std::string> notes;         // what of the file couldn't be kept, a line each
     std::vector<SceneLayer> unread;         // of a project: pictures that couldn't be read, and are kept as they are
     std::map<uint32_t, std::string> unreadPlants;  // likewise files of frozen plants, by seeds' keys; they grow
     EspCamera camera{};
-    EspLook ownLook{};      // as the file says
-    EspLook look{};         // that, with the light of the hour
-    float hour = kOwnSun;   // of the day, 0 to 24; what the light is made from unless it is kOwnSun
-    std::string viewLayer;  // of look.view ESP_VIEW_LAYER; look.viewLayer is left alone
+    std::vector<Bookmark> bookmarks;  // by digit
+    EspLook ownLook{};                // as the file says
+    EspLook look{};                   // that, with the light of the hour
+    float hour = kOwnSun;             // of the day, 0 to 24; what the light is made from unless it is kOwnSun
+    std::string viewLayer;            // of look.view ESP_VIEW_LAYER; look.viewLayer is left alone
 };
 
 // Reads the scene or project (docs/scene_format.md; of a project also its folder) or the bare surface, for which the
@@ -157,9 +207,21 @@ bool plantAll(EspContext* context, Scene& scene, std::string& error);
 // Gives the grammar another text. False: it has mistakes, told in grammar.error, and the last good one keeps growing.
 bool setText(EspContext* context, LoadedGrammar& grammar, const std::string& text);
 
+// False: `error` says why, and it looks as before.
+bool setLook(EspContext* context, EspGrammar grammar, const TerminalLook& look, std::string& error);
+// The list with this look in place of the terminal's own; a plain one goes.
+void putLook(std::vector<TerminalLook>& looks, const TerminalLook& look);
+
 // Of a scene with a town, what that grows by: the grammar that it names, or the first that makes roofs. False: none
 // does.
 bool setTownGrammar(EspContext* context, const Scene& scene, std::string& error);
+
+// Values of a grammar's parameters that suit a model of that size (`scale`, `reach`), instead of a wall of some metres:
+// what is smaller is a model of something large. side: the largest of its extents; metres.
+std::vector<ParamValue> fittingParams(const EspContext* context, EspGrammar grammar, float side, float height);
+
+// Of a model's largest side: as it is, or as what is far too small or large is shown, so that ivy on it is ivy.
+float livingScale(float side);
 
 // Values that aren't the grammar's own.
 std::vector<ParamValue> changedParams(const EspContext* context, EspGrammar grammar);
@@ -171,8 +233,17 @@ std::string contentFolder();
 bool viewNamed(const std::string& name, EspView& out);
 const char* nameOf(EspView view);
 // intrinsic, paper. False: there is no such walk.
+bool groundNamed(const std::string& name, EspGround& out);
+const char* nameOf(EspGround ground);
 bool walkNamed(const std::string& name, EspWalkMode& out);
 const char* nameOf(EspWalkMode walk);
+
+// Sets the frame that the scene's graphs show, of so many a second. Takes effect with the next espUpdate.
+bool setGraphTime(EspContext* context, Scene& scene, uint32_t frame, float rate, std::string& error);
+// A graph that comes to the scene: its file and text are set. Nodes that wait for wires are no mistakes.
+bool compileGraph(EspContext* context, const Scene& scene, LoadedGraph& graph, std::string& error);
+// Gives the graph another text. False: it has mistakes, told in graph.error, and the last good one goes on running.
+bool setText(EspContext* context, LoadedGraph& graph, const std::string& text);
 
 // The camera turned about its target and the vertical.
 EspCamera turned(const EspCamera& camera, float radians);

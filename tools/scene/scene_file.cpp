@@ -21,13 +21,17 @@ class Reader : JsonChecks {
     void readScene(const Json& json) {
         if (!readVersion(json)) return;
         if (!isObject(json, "a scene",
-                      {"project", "follows", "surface", "surfaces", "town", "pruned", "walk", "grammars", "filled",
-                       "layers", "camera", "sun", "sky", "ground", "site", "pieces", "wind", "exposure"}))
+                      {"project",  "follows", "surface", "surfaces", "town",      "pruned",   "walk",
+                       "grammars", "filled",  "layers",  "camera",   "bookmarks", "sun",      "sky",
+                       "ground",   "site",    "pieces",  "graphs",   "wind",      "exposure", "locked_layers"}))
             return;
         if (json.find("follows")) word(json, "follows", out_.follows);
+        if (const Json* graphs = json.find("graphs")) readGraphs(*graphs);
         readSurfaces(json);
-        if (const Json* grammars = need(json, "grammars")) {
-            if (grammars->kind != Json::Kind::list || grammars->items.empty())
+        // A scene of graphs alone grows nothing.
+        const Json* grammars = out_.graphs.empty() ? need(json, "grammars") : json.find("grammars");
+        if (grammars) {
+            if (grammars->kind != Json::Kind::list || (grammars->items.empty() && out_.graphs.empty()))
                 fail(*grammars, "'grammars' must be a list of at least one");
             for (const Json& grammar : grammars->items) readGrammar(grammar);
         }
@@ -46,7 +50,14 @@ class Reader : JsonChecks {
             if (layers->kind != Json::Kind::object) fail(*layers, "'layers' must be an object");
             for (const auto& [name, picture] : layers->members) readLayer(name, picture);
         }
+        if (const Json* locked = list(json, "locked_layers"))
+            for (const Json& layer : locked->items) {
+                if (layer.kind != Json::Kind::text) fail(layer, "'locked_layers' must be names of layers");
+                out_.lockedLayers.push_back(layer.text);
+            }
         if (const Json* camera = json.find("camera")) readCamera(*camera);
+        if (const Json* bookmarks = list(json, "bookmarks"))
+            for (const Json& bookmark : bookmarks->items) readBookmark(bookmark);
         if (const Json* sun = json.find("sun");
             sun && isObject(*sun, "'sun'", {"direction", "colour", "intensity", "hour", "shadows"})) {
             number(*sun, "hour", 0, 24, out_.hour);
@@ -63,9 +74,14 @@ class Reader : JsonChecks {
             vector(*sky, "background", out_.background);
             vector(*sky, "horizon", out_.horizon);
         }
-        if (const Json* ground = json.find("ground"); ground && isObject(*ground, "'ground'", {"level", "overgrows"})) {
+        if (const Json* ground = json.find("ground");
+            ground && isObject(*ground, "'ground'", {"kind", "level", "overgrows"})) {
             number(*ground, "level", -1e5f, 1e5f, out_.groundLevel.emplace(0.f));
             flag(*ground, "overgrows", out_.groundOvergrows);
+            if (const Json* kind = ground->find("kind");
+                kind && (kind->kind != Json::Kind::text || !groundNamed(kind->text, out_.ground) ||
+                         out_.ground == ESP_GROUND_NONE))
+                fail(*kind, "'kind' must be \"meadow\" or \"studio\"");
         }
         if (const Json* wind = json.find("wind"); wind && isObject(*wind, "'wind'", {"velocity", "gusts"})) {
             vector(*wind, "velocity", out_.wind);
@@ -90,22 +106,40 @@ class Reader : JsonChecks {
                            "); this one reads up to " + std::to_string(SceneFile::kProjectVersion));
         return false;
     }
+    void readGraphs(const Json& json) {
+        if (json.kind != Json::Kind::list || json.items.empty())
+            fail(json, "'graphs' must be a list of at least one file");
+        for (const Json& graph : json.items) {
+            if (graph.kind != Json::Kind::object) {
+                out_.graphs.push_back({file(graph)});
+                continue;
+            }
+            if (!isObject(graph, "a graph", {"file", "text", "runs"})) continue;
+            SceneGraph& read = out_.graphs.emplace_back();
+            if (const Json* name = need(graph, "file")) read.file = file(*name);
+            lines(graph, "text", read.text);
+            if (lines(graph, "runs", read.runs) && !read.text) fail(graph, "'runs' needs a 'text'");
+        }
+    }
     void readSurfaces(const Json& json) {
         const Json* one = json.find("surface");
         const Json* many = json.find("surfaces");
         if (one && many) fail(*one, "'surface' and 'surfaces' exclude each other");
         if (one) out_.surfaces.push_back({file(*one), {}});
-        if (!one && !many && !json.find("town")) fail(json, "'surface' is missing");
+        if (!one && !many && !json.find("town") && out_.graphs.empty()) fail(json, "'surface' is missing");
         if (!many) return;
-        if (many->kind != Json::Kind::list || many->items.empty())
-            fail(*many, "'surfaces' must be a list of at least one");
+        if (many->kind != Json::Kind::list) fail(*many, "'surfaces' must be a list");
         for (const Json& surface : many->items) {
-            if (!isObject(surface, "a surface", {"file", "position", "turn", "scale", "drawn", "fields"})) continue;
+            if (!isObject(surface, "a surface",
+                          {"file", "position", "turn", "scale", "drawn", "hidden", "locked", "fields"}))
+                continue;
             SceneSurface& placed = out_.surfaces.emplace_back();
             if (const Json* name = need(surface, "file")) placed.file = file(*name);
             readPlace(surface, placed.placing);
             number(surface, "scale", 1e-6f, 1e6f, placed.placing.scale);
             flag(surface, "drawn", placed.drawn);
+            flag(surface, "hidden", placed.hidden);
+            flag(surface, "locked", placed.locked);
             if (const Json* fields = surface.find("fields")) readFields(*fields, placed.fields);
         }
     }
@@ -143,13 +177,15 @@ class Reader : JsonChecks {
         placing.turn = turnOfDegrees(degrees);
     }
     void readTown(const Json& json) {
-        if (!isObject(json, "'town'", {"file", "grammar", "position", "turn", "ground", "houses"})) return;
+        if (!isObject(json, "'town'", {"file", "grammar", "position", "turn", "ground", "houses", "marks"})) return;
         SceneTown& town = out_.town.emplace();
         if (const Json* name = need(json, "file")) town.file = file(*name);
         readPlace(json, town.placing);
         index(json, "grammar", out_.grammars.size(), town.grammar);
         if (const Json* houses = list(json, "houses"))
             for (const Json& house : houses->items) readHouse(house, town.houses.emplace_back());
+        if (const Json* marks = list(json, "marks"))
+            for (const Json& mark : marks->items) readMark(mark, town.marks.emplace_back());
         const Json* ground = json.find("ground");
         if (!ground) return;
         std::array<float, 3> colour{};
@@ -159,6 +195,13 @@ class Reader : JsonChecks {
             town.groundColour = colour;
         else
             fail(*ground, "'ground' must be true, false or a colour of three numbers");
+    }
+    void readMark(const Json& json, HouseMark& mark) {
+        if (!isObject(json, "a mark", {"house", "id", "hidden", "locked"})) return;
+        if (need(json, "house")) whole(json, "house", mark.index);
+        if (json.find("id")) word(json, "id", mark.id);
+        flag(json, "hidden", mark.hidden);
+        flag(json, "locked", mark.locked);
     }
     void readHouse(const Json& json, House& house) {
         if (!isObject(json, "a house",
@@ -268,14 +311,30 @@ class Reader : JsonChecks {
         }
     }
     void readGrammar(const Json& json) {
-        if (!isObject(json, "a grammar", {"file", "text", "grows", "params", "seeds"})) return;
+        if (!isObject(json, "a grammar", {"file", "text", "grows", "params", "looks", "seeds"})) return;
         SceneGrammar& grammar = out_.grammars.emplace_back();
         if (const Json* name = need(json, "file")) grammar.file = file(*name);
         lines(json, "text", grammar.text);
         if (lines(json, "grows", grammar.grows) && !json.find("text")) fail(json, "'grows' needs a 'text'");
         params(json, grammar.params);
+        if (const Json* looks = json.find("looks")) {
+            if (looks->kind != Json::Kind::object) fail(*looks, "'looks' must be an object");
+            for (const auto& [name, look] : looks->members) readLook(name, look, grammar.looks);
+        }
         if (const Json* seeds = list(json, "seeds"))
             for (const Json& seed : seeds->items) readSeed(grammar, seed);
+    }
+    void readLook(const std::string& name, const Json& json, std::vector<TerminalLook>& looks) {
+        if (!isObject(json, "a look", {"mesh", "picture", "colour"})) return;
+        TerminalLook look{name, {}, {}, {}};
+        if (const Json* mesh = json.find("mesh")) look.mesh = file(*mesh);
+        if (const Json* picture = json.find("picture")) look.picture = file(*picture);
+        std::optional<std::array<float, 3>> colour;
+        if (vector(json, "colour", colour)) look.colour.assign(colour->begin(), colour->end());
+        if (std::ranges::any_of(look.colour, [](float c) { return !(c >= 0 && c <= 1); }))
+            fail(*json.find("colour"), "'colour' must be of 0 to 1");
+        if (look.plain()) fail(json, "a look needs a 'mesh', a 'picture' or a 'colour'");
+        looks.push_back(std::move(look));
     }
     bool readParam(const std::string& name, const Json& value, SceneParam& param) {
         param.value.name = name;
@@ -291,7 +350,8 @@ class Reader : JsonChecks {
         return value.kind == Json::Kind::number || value.kind == Json::Kind::flag || param.value.count == 3;
     }
     void readSeed(SceneGrammar& grammar, const Json& json) {
-        if (!isObject(json, "a seed", {"position", "direction", "seed", "params", "frozen", "place"})) return;
+        if (!isObject(json, "a seed", {"position", "direction", "seed", "params", "frozen", "hidden", "line", "place"}))
+            return;
         Seed seed;
         seed.number = uint32_t(grammar.seeds.size() + 1);
         if (const Json* position = need(json, "position"); position && !numbers(*position, seed.position))
@@ -306,24 +366,45 @@ class Reader : JsonChecks {
                 seed.number = uint32_t(n->number);
         }
         whole(json, "place", seed.place, 1u << 24);
+        flag(json, "hidden", seed.hidden);
+        if (const Json* line = list(json, "line"))
+            for (const Json& point : line->items)
+                if (!numbers(point, seed.line.emplace_back()))
+                    fail(point, "a point of a 'line' must be six numbers: position and normal");
         if (const Json* frozen = json.find("frozen")) seed.frozenFile = file(*frozen);
         std::vector<SceneParam> own;
         params(json, own);
         for (const SceneParam& param : own) seed.params.push_back(param.value);
         grammar.seeds.push_back(seed);
     }
-    void readCamera(const Json& json) {
-        if (!isObject(json, "'camera'", {"eye", "target", "fov"})) return;
+    // False: neither is said.
+    bool readView(const Json& json, std::array<float, 3>& from, std::array<float, 3>& to) {
         std::optional<std::array<float, 3>> eye, target;
         vector(json, "eye", eye);
         vector(json, "target", target);
         if (eye.has_value() != target.has_value()) fail(json, "'eye' and 'target' belong together");
-        if (eye && target) {
-            out_.hasCamera = true;
-            out_.eye = *eye;
-            out_.target = *target;
-            if (*eye == *target) fail(json, "'eye' and 'target' are the same point");
-        }
+        if (!eye || !target) return false;
+        from = *eye;
+        to = *target;
+        if (*eye == *target) fail(json, "'eye' and 'target' are the same point");
+        return true;
+    }
+    void readBookmark(const Json& json) {
+        if (!isObject(json, "a bookmark", {"digit", "eye", "target", "fov"})) return;
+        Bookmark bookmark;
+        float fov = 40;
+        if (need(json, "digit")) whole(json, "digit", bookmark.digit, kMostBookmarks);
+        if (bookmark.digit == 0) fail(json, "'digit' must be a whole number from 1 to 9");
+        if (!readView(json, bookmark.eye, bookmark.target)) fail(json, "a bookmark needs 'eye' and 'target'");
+        number(json, "fov", kLeastFov, kMostFov, fov);
+        bookmark.fov = fovOfDegrees(fov);
+        if (std::ranges::find(out_.bookmarks, bookmark.digit, &Bookmark::digit) != out_.bookmarks.end())
+            fail(json, "two bookmarks have this digit");
+        out_.bookmarks.push_back(bookmark);
+    }
+    void readCamera(const Json& json) {
+        if (!isObject(json, "'camera'", {"eye", "target", "fov"})) return;
+        out_.hasCamera = readView(json, out_.eye, out_.target);
         out_.fov = 40;
         number(json, "fov", kLeastFov, kMostFov, out_.fov);
     }
@@ -347,7 +428,7 @@ void SceneFile::applyLook(EspLook& look) const {
     look.gusts = gusts;
     look.exposure = exposure;
     look.shadows = shadows;
-    look.ground = groundLevel.has_value();
+    look.ground = groundLevel ? ground : ESP_GROUND_NONE;
     look.groundLevel = groundLevel.value_or(0);
     look.groundOvergrows = groundOvergrows;
 }

@@ -3,7 +3,7 @@
 // What scenes are opened with, between scene.cpp, described_scene.cpp and bare_scene.cpp. Functions return false with
 // what went wrong in `error`.
 
-#include "tools/scene/scene.hpp"
+#include "tools/scene/scene_file.hpp"
 
 namespace espalier::scene {
 
@@ -31,6 +31,12 @@ bool openDescription(EspContext* context, const Request& request, Scene& out, st
 // A surface, or a town, on its own: with standard grammars, seeds where they have a chance, ground and a camera.
 bool openSurface(EspContext* context, const Request& request, Scene& out, std::string& error);
 bool openTown(EspContext* context, const Request& request, Scene& out, std::string& error);
+// A procedural graph on its own, on a ground.
+bool openGraph(EspContext* context, const Request& request, Scene& out, std::string& error);
+// Adds graphs to a scene.
+bool loadGraphs(EspContext* context, const std::vector<SceneGraph>& graphs, Scene& out, std::string& error);
+// What stands alone gets something to stand on, below all of it, floors too. The eye is not to be below it.
+void layGround(float level, Scene& scene);
 // Whether it may be a baked surface; else `error` says what it is, or why it can't be read.
 bool isSurface(const std::string& path, std::string& error);
 

@@ -1,4 +1,5 @@
 // SceneFile -> JSON, the inverse of scene_file.cpp.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -49,6 +50,12 @@ ordered_json townJson(const SceneTown& town, const std::string& file) {
                                             {"chimneys", house.look->chimneys}};
         for (float channel : house.look->colour) look["colour"].push_back(shortest(channel));
     }
+    for (const HouseMark& mark : town.marks) {
+        ordered_json& out = json["marks"].emplace_back(ordered_json{{"house", mark.index}});
+        if (!mark.id.empty()) out["id"] = mark.id;
+        if (mark.hidden) out["hidden"] = true;
+        if (mark.locked) out["locked"] = true;
+    }
     if (!town.ground)
         json["ground"] = false;
     else if (town.groundColour)
@@ -73,17 +80,32 @@ ordered_json valueJson(const ParamValue& value) {
 
 using Beside = std::function<std::string(const std::string&)>;
 
+ordered_json graphJson(const SceneGraph& graph, const Beside& beside) {
+    if (!graph.text) return beside(graph.file);
+    ordered_json json{{"file", beside(graph.file)}, {"text", linesOf(*graph.text)}};
+    if (graph.runs) json["runs"] = linesOf(*graph.runs);
+    return json;
+}
+
 ordered_json grammarJson(const SceneGrammar& grammar, const Beside& beside) {
     ordered_json json{{"file", beside(grammar.file)}};
     if (grammar.text) json["text"] = linesOf(*grammar.text);
     if (grammar.grows) json["grows"] = linesOf(*grammar.grows);
     ordered_json& params = json["params"] = ordered_json::object();
     for (const SceneParam& param : grammar.params) params[param.value.name] = valueJson(param.value);
+    for (const TerminalLook& look : grammar.looks) {
+        ordered_json& out = json["looks"][look.terminal] = ordered_json::object();
+        if (!look.mesh.empty()) out["mesh"] = beside(look.mesh);
+        if (!look.picture.empty()) out["picture"] = beside(look.picture);
+        for (float channel : look.colour) out["colour"].push_back(shortest(channel));
+    }
     ordered_json& seeds = json["seeds"] = ordered_json::array();
     for (const Seed& seed : grammar.seeds) {
         ordered_json& out = seeds.emplace_back(ordered_json{{"position", shortestList(seed.position)},
                                                             {"direction", shortestList(seed.direction)},
                                                             {"seed", seed.number}});
+        if (seed.hidden) out["hidden"] = true;
+        for (const auto& point : seed.line) out["line"].push_back(shortestList(point));
         if (seed.place) out["place"] = seed.place;
         if (!seed.frozenFile.empty()) out["frozen"] = beside(seed.frozenFile);
         for (const ParamValue& own : seed.params) out["params"][own.name] = valueJson(own);
@@ -103,14 +125,18 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     ordered_json json;
     if (file.project) json["project"] = file.project;
     if (!file.follows.empty()) json["follows"] = file.follows;
+    if (file.surfaces.empty() && !file.town) json["surfaces"] = ordered_json::array();  // it waits for models
     for (const SceneSurface& surface : file.surfaces) {
         json["surfaces"].push_back(placedJson(beside(surface.file), surface.placing));
         if (!surface.drawn) json["surfaces"].back()["drawn"] = false;
+        if (surface.hidden) json["surfaces"].back()["hidden"] = true;
+        if (surface.locked) json["surfaces"].back()["locked"] = true;
         for (const SceneField& field : surface.fields) json["surfaces"].back()["fields"][field.name] = fieldJson(field);
     }
     if (file.town) json["town"] = townJson(*file.town, beside(file.town->file));
     if (!file.site.empty()) json["site"] = beside(file.site);
     if (!file.pieces.empty()) json["pieces"] = beside(file.pieces);
+    for (const SceneGraph& graph : file.graphs) json["graphs"].push_back(graphJson(graph, beside));
     if (file.walk != ESP_WALK_INTRINSIC) json["walk"] = nameOf(file.walk);
     for (uint64_t branch : file.pruned) {
         char key[20];
@@ -120,6 +146,7 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     json["grammars"] = ordered_json::array();
     for (const SceneGrammar& grammar : file.grammars) json["grammars"].push_back(grammarJson(grammar, beside));
     for (const auto& [name, value] : file.filled) json["filled"][name] = shortest(value);
+    if (!file.lockedLayers.empty()) json["locked_layers"] = file.lockedLayers;
     for (const SceneLayer& layer : file.layers) {
         if (layer.surface == SceneLayer::kTown) {
             ordered_json picture{{"town", true}, {"file", beside(layer.file)}};
@@ -139,6 +166,13 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     if (file.hasCamera)
         json["camera"] = {
             {"eye", shortestList(file.eye)}, {"target", shortestList(file.target)}, {"fov", shortest(file.fov)}};
+    for (const Bookmark& bookmark : file.bookmarks) {
+        const float fov = std::clamp(degreesOf(bookmark.fov, fovOfDegrees), kLeastFov, kMostFov);
+        json["bookmarks"].push_back({{"digit", bookmark.digit},
+                                     {"eye", shortestList(bookmark.eye)},
+                                     {"target", shortestList(bookmark.target)},
+                                     {"fov", shortest(fov)}});
+    }
     const auto vector = [](ordered_json& to, const char* name, const std::optional<std::array<float, 3>>& value) {
         if (value) to[name] = shortestList(*value);
     };
@@ -155,6 +189,7 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
     if (!sun.empty()) json["sun"] = sun;
     if (!sky.empty()) json["sky"] = sky;
     if (file.groundLevel) json["ground"] = {{"level", shortest(*file.groundLevel)}};
+    if (file.groundLevel && file.ground != ESP_GROUND_MEADOW) json["ground"]["kind"] = nameOf(file.ground);
     if (file.groundLevel && !file.groundOvergrows) json["ground"]["overgrows"] = false;
     if (file.wind) {
         vector(json["wind"], "velocity", file.wind);

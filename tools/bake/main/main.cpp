@@ -150,10 +150,10 @@ int runTown(Arguments& arguments) {
 int runPalette(const Arguments& arguments) {
     if (const auto lost = writtenOver({arguments.model}, {arguments.output}))
         return refuse(Failure(*lost, "the palette would overwrite what it is made of"));
-    const Status baked =
-        bakePalette({arguments.model, arguments.output, arguments.importing}, [&](const std::string& line) {
-            if (!arguments.quiet) std::fprintf(stderr, "%s\n", line.c_str());
-        });
+    const auto bake = arguments.terminal ? bakeTerminal : bakePalette;
+    const Status baked = bake({arguments.model, arguments.output, arguments.importing}, [&](const std::string& line) {
+        if (!arguments.quiet) std::fprintf(stderr, "%s\n", line.c_str());
+    });
     return baked ? 0 : fail(baked.failure());
 }
 
@@ -169,7 +169,7 @@ int bakeAsAsked(int argc, char** argv) {
         if (const auto mistake = mistakeIn(app, arguments, kind)) return refuse(*mistake);
         arguments.bake.nearestTolerance = float(arguments.tolerance);
         if (const auto& o = arguments.origin; o.size() == 3) arguments.importing.origin = glm::dvec3(o[0], o[1], o[2]);
-        if (arguments.pieces) return runPalette(arguments);
+        if (arguments.pieces || arguments.terminal) return runPalette(arguments);
         if (kind == InputKind::town) return runTown(arguments);
         return kind == InputKind::folder ? runFolder(arguments, app) : runModel(arguments);
     } catch (const std::bad_alloc&) {

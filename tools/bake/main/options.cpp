@@ -43,6 +43,11 @@ void addPieces(CLI::App& app, Arguments& arguments) {
            "makes no surface, but a palette (.glb) of the model, or of all models of a folder, for patterns to place "
            "(docs/patterns.md); of the other options those of importing count")
         ->group(kOfModels);
+    app.add_flag("--terminal", arguments.terminal,
+                 "makes no surface, but the mesh (.glb) that plants draw in place of a leaf or blossom "
+                 "(docs/scene_format.md); of the other options those of importing count")
+        ->excludes(app.get_option("--pieces"))
+        ->group(kOfModel);
 }
 
 void addModelOptions(CLI::App& app, Arguments& arguments) {

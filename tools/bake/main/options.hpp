@@ -23,7 +23,8 @@ struct Arguments {
     double tolerance = 0;
     unsigned jobs = 0;
     bool quiet = false;
-    bool pieces = false;  // a palette is asked for
+    bool pieces = false;    // a palette is asked for
+    bool terminal = false;  // a mesh for plants' terminals is asked for
 };
 
 void addOptions(CLI::App& app, Arguments& arguments);

@@ -20,6 +20,7 @@ namespace {
 constexpr uint32_t kPlainSide = 8, kPictureSide = 256, kMostSide = 1024;  // texels of a material in the piece's picture
 constexpr size_t kMostVertices = 65'536;                                  // of a level
 constexpr size_t kColliderTriangles = 96;                                 // of a level fine enough to meet others by
+constexpr size_t kMostOfTerminal = 2'000, kFewestOfTerminal = 8;          // triangles
 constexpr size_t kMostPieces = kMaxTerminalKinds - 1;
 
 struct Piece {
@@ -28,6 +29,7 @@ struct Piece {
     std::optional<content::Mesh> collider;  // by which it meets others, if no level is coarse enough
     content::Picture picture;
     bool repeats = false;  // the picture is a material's own
+    bool cutOut = false;   // by its alpha
     float roughness = 1;
 };
 
@@ -49,12 +51,14 @@ float linear(uint8_t stored) {
     return s <= .04045f ? s / 12.92f : std::pow((s + .055f) / 1.055f, 2.4f);
 }
 
-// The mean of the source's texels that a texel of a side so long covers, times a colour.
-void paint(content::Picture& to, uint32_t left, uint32_t top, uint32_t side, const Picture* from, glm::vec4 colour) {
+// The mean of the source's texels that a texel of a side so long covers, times a colour. cutOut: what is transparent
+// stays so, and doesn't darken its edge.
+void paint(content::Picture& to, uint32_t left, uint32_t top, uint32_t side, const Picture* from, glm::vec4 colour,
+           bool cutOut) {
     for (uint32_t y = 0; y < side; ++y)
         for (uint32_t x = 0; x < side; ++x) {
             glm::vec3 sum(0);
-            uint32_t count = 0;
+            float count = 0, weight = 0;
             if (from) {
                 const uint32_t x0 = x * from->width / side, y0 = y * from->height / side;
                 const uint32_t x1 = std::max((x + 1) * from->width / side, x0 + 1);
@@ -62,20 +66,22 @@ void paint(content::Picture& to, uint32_t left, uint32_t top, uint32_t side, con
                 for (uint32_t v = y0; v < y1; ++v)
                     for (uint32_t u = x0; u < x1; ++u, ++count) {
                         const uint8_t* t = &from->rgba[(size_t(v) * from->width + u) * 4];
-                        sum += glm::vec3(linear(t[0]), linear(t[1]), linear(t[2]));
+                        const float share = cutOut ? std::max(float(t[3]) / 255, 1e-3f) : 1;
+                        sum += share * glm::vec3(linear(t[0]), linear(t[1]), linear(t[2]));
+                        weight += share;
                     }
             }
-            const glm::vec3 mean = (count > 0 ? sum / float(count) : glm::vec3(1)) * glm::vec3(colour);
+            const glm::vec3 mean = (count > 0 ? sum / weight : glm::vec3(1)) * glm::vec3(colour);
             uint8_t* t = to.at(int(left + x), int(top + y));
             for (int c = 0; c < 3; ++c) t[c] = stored(mean[c]);
-            t[3] = 255;
+            t[3] = cutOut && count > 0 ? uint8_t(std::clamp(weight / count, 0.0f, 1.0f) * 255 + .5f) : 255;
         }
 }
 
 // Where each material's colours lie in the piece's one picture: cells of a square, or the whole picture.
 class Colours {
   public:
-    Colours(const Model& model, Piece& piece) : model_(model) {
+    Colours(const Model& model, Piece& piece, bool cutOut) : model_(model) {
         for (size_t t = 0; t < model.indices.size() / 3; ++t) cells_.emplace(materialOf(t), uint32_t(cells_.size()));
         bool pictured = false;
         float rough = 0;
@@ -93,7 +99,7 @@ class Colours {
         piece.picture = content::Picture(int(columns_ * side_), int(columns_ * side_));
         for (const auto& [material, cell] : cells_)
             paint(piece.picture, cell % columns_ * side_, cell / columns_ * side_, side_, pictureOf(material),
-                  material < model.materials.size() ? model.materials[material].baseColor : glm::vec4(1));
+                  material < model.materials.size() ? model.materials[material].baseColor : glm::vec4(1), cutOut);
     }
 
     uint32_t materialOf(size_t triangle) const {
@@ -141,17 +147,62 @@ std::vector<glm::vec3> normalsOf(const Model& model) {
     return normals;
 }
 
-// Vertices apart for each material, in the scope's frame.
-Result<content::Mesh> wholeOf(const Model& model, const Colours& colours) {
-    glm::vec3 low(1e30f), high(-1e30f);
+// How a model is laid into the frame of a mesh: turned, its foot moved to the origin, scaled.
+struct Frame {
+    glm::mat3 axes{1};
+    glm::vec3 foot{0};  // turned already
+    float side = 0;
+};
+
+struct Extent {
+    glm::vec3 low{1e30f}, high{-1e30f};
+    glm::vec3 size() const { return high - low; }
+};
+Extent extentOf(const Model& model, const glm::mat3& axes) {
+    Extent out;
     for (const uint32_t v : model.indices) {
-        low = glm::min(low, model.positions[v]);
-        high = glm::max(high, model.positions[v]);
+        const glm::vec3 p = axes * model.positions[v];
+        out.low = glm::min(out.low, p);
+        out.high = glm::max(out.high, p);
     }
-    const glm::vec3 size = high - low;
-    const float side = std::max(std::max(size.x, size.z), size.y * 1e-3f);
-    if (!(side > 0)) return Failure(model.name, "has no size");
-    const glm::vec3 foot((low.x + high.x) / 2, low.y, (low.z + high.z) / 2);
+    return out;
+}
+
+// A piece fills its scope.
+Frame pieceFrame(const Model& model) {
+    const Extent all = extentOf(model, glm::mat3(1));
+    const glm::vec3 size = all.size();
+    return {glm::mat3(1),
+            {(all.low.x + all.high.x) / 2, all.low.y, (all.low.z + all.high.z) / 2},
+            std::max(std::max(size.x, size.z), size.y * 1e-3f)};
+}
+
+// A leaf has its stalk at the origin, leads along +Y and looks along +Z. One that lies on the ground leads away from
+// who looks at it from the front, as modelling programs lay it; one that is thin from left to right looks to the right.
+Frame leafFrame(const Model& model) {
+    const glm::vec3 size = extentOf(model, glm::mat3(1)).size();
+    Frame frame;
+    if (size.y < .5f * std::min(size.x, size.z))
+        frame.axes = glm::transpose(glm::mat3(glm::vec3(1, 0, 0), glm::vec3(0, 0, -1), glm::vec3(0, 1, 0)));
+    else if (size.x < .5f * std::min(size.y, size.z))
+        frame.axes = glm::transpose(glm::mat3(glm::vec3(0, 0, -1), glm::vec3(0, 1, 0), glm::vec3(1, 0, 0)));
+    const Extent turned = extentOf(model, frame.axes);
+    frame.side = std::max(turned.size().y, turned.size().x / 3);
+    // The stalk is the middle of what lies lowest.
+    Extent stalk;
+    for (const uint32_t v : model.indices) {
+        const glm::vec3 p = frame.axes * model.positions[v];
+        if (p.y <= turned.low.y + .02f * frame.side)
+            stalk.low = glm::min(stalk.low, p), stalk.high = glm::max(stalk.high, p);
+    }
+    const glm::vec3 middle = .5f * (stalk.low + stalk.high);
+    frame.foot = {middle.x, turned.low.y, middle.z};
+    return frame;
+}
+
+// Vertices apart for each material, in the mesh's frame.
+Result<content::Mesh> wholeOf(const Model& model, const Colours& colours, const Frame& frame) {
+    if (!(frame.side > 0)) return Failure(model.name, "has no size");
     const std::vector<glm::vec3> normals = normalsOf(model);
     content::Mesh mesh;
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> known;  // by vertex and material
@@ -159,8 +210,8 @@ Result<content::Mesh> wholeOf(const Model& model, const Colours& colours) {
         const uint32_t v = model.indices[i], material = colours.materialOf(i / 3);
         const auto [at, fresh] = known.emplace(std::pair(v, material), uint32_t(mesh.positions.size()));
         if (fresh) {
-            mesh.positions.push_back((model.positions[v] - foot) / side);
-            mesh.normals.push_back(normals[v]);
+            mesh.positions.push_back((frame.axes * model.positions[v] - frame.foot) / frame.side);
+            mesh.normals.push_back(frame.axes * normals[v]);
             mesh.uvs.push_back(colours.uvOf(material, v));
         }
         mesh.indices.push_back(at->second);
@@ -225,28 +276,54 @@ content::Mesh boxAround(const content::Mesh& mesh) {
     return box;
 }
 
+// Coarser levels, as long as they save a quarter, down to about so many triangles.
+void addLevels(Piece& piece, const content::Mesh& whole, size_t fewest) {
+    const content::Mesh joined = welded(whole);
+    for (size_t wanted = whole.indices.size() / 3 / 4; piece.lods.size() < kMaxLods; wanted /= 4) {
+        const size_t before = piece.lods.back().indices.size() / 3;
+        if (before <= fewest) break;
+        content::Mesh lod = simplified(joined, std::max(wanted, fewest));
+        if (lod.indices.empty() || lod.indices.size() / 3 > before * 3 / 4) break;
+        piece.lods.push_back(std::move(lod));
+    }
+}
+
+// What a plant draws thousands of times.
+Result<Piece> terminalOf(const std::string& file, const ImportOptions& importing) {
+    Result<Model> model = importModel(file, importing);
+    if (!model) return model.failure();
+    if (model->indices.empty()) return Failure(file, "has no triangles");
+    Piece piece;
+    piece.name = "own";
+    const Colours colours(*model, piece, true);
+    Result<content::Mesh> whole = wholeOf(*model, colours, leafFrame(*model));
+    if (!whole) return whole.failure();
+    const bool large = whole->indices.size() / 3 > kMostOfTerminal;
+    piece.lods.push_back(large ? simplified(welded(*whole), kMostOfTerminal) : *whole);
+    if (piece.lods[0].indices.size() / 3 > 4 * kMostOfTerminal)
+        return Failure(file, "has " + std::to_string(whole->indices.size() / 3) +
+                                 " triangles and can't be simplified; a plant draws its leaves thousands of times, so "
+                                 "one should have a few hundred");
+    addLevels(piece, piece.lods[0], kFewestOfTerminal);
+    const auto& texels = piece.picture.rgba;
+    for (size_t i = 3; i < texels.size() && !piece.cutOut; i += 4) piece.cutOut = texels[i] < 128;
+    return piece;
+}
+
 Result<Piece> pieceOf(const std::string& file, const ImportOptions& importing) {
     Result<Model> model = importModel(file, importing);
     if (!model) return model.failure();
     if (model->indices.empty()) return Failure(file, "has no triangles");
     Piece piece;
     piece.name = nameOf(file);
-    const Colours colours(*model, piece);
-    Result<content::Mesh> whole = wholeOf(*model, colours);
+    const Colours colours(*model, piece, false);
+    Result<content::Mesh> whole = wholeOf(*model, colours, pieceFrame(*model));
     if (!whole) return whole.failure();
-    const size_t triangles = whole->indices.size() / 3;
     const bool large = whole->positions.size() > kMostVertices;
     piece.lods.push_back(large ? simplified(*whole, kMostVertices / 2) : *whole);
     if (piece.lods[0].positions.size() > kMostVertices)
         return Failure(file, "has more than 65,536 vertices, and can't be simplified");
-    const content::Mesh joined = welded(*whole);
-    for (size_t wanted = triangles / 4; piece.lods.size() < kMaxLods; wanted /= 4) {
-        const size_t before = piece.lods.back().indices.size() / 3;
-        if (before <= kColliderTriangles) break;
-        content::Mesh lod = simplified(joined, std::max(wanted, kColliderTriangles));
-        if (lod.indices.empty() || lod.indices.size() / 3 > before * 3 / 4) break;
-        piece.lods.push_back(std::move(lod));
-    }
+    addLevels(piece, *whole, kColliderTriangles);
     if (piece.lods.back().indices.size() / 3 > kColliderTriangles) piece.collider = boxAround(*whole);
     return piece;
 }
@@ -267,7 +344,33 @@ Result<std::vector<std::string>> filesOf(const PaletteArguments& arguments) {
     return files;
 }
 
+void addPiece(content::Glb& glb, const Piece& piece) {
+    content::GlbMaterial material;
+    material.name = piece.name;
+    material.colorImage = int(glb.images.size());
+    material.roughness = piece.roughness;
+    material.repeat = piece.repeats;
+    material.doubleSided = piece.cutOut;
+    material.alphaCutoff = piece.cutOut ? .5f : 0;
+    glb.images.push_back({piece.name, content::encodePng(piece.picture, piece.cutOut ? 4 : 3), true});
+    for (size_t lod = 0; lod < piece.lods.size(); ++lod)
+        glb.meshes.push_back({piece.name + "_lod" + std::to_string(lod), &piece.lods[lod], int(glb.materials.size())});
+    if (piece.collider)
+        glb.meshes.push_back({piece.name + "_collider_lod0", &*piece.collider, int(glb.materials.size())});
+    glb.materials.push_back(material);
+}
+
 }  // namespace
+
+Status bakeTerminal(const PaletteArguments& arguments, const std::function<void(const std::string&)>& told) {
+    const Result<Piece> piece = terminalOf(arguments.input, arguments.importing);
+    if (!piece) return piece.failure();
+    told("terminal: " + std::to_string(piece.value().lods[0].indices.size() / 3) + " triangles, " +
+         std::to_string(piece.value().lods.size()) + " levels, of " + arguments.input);
+    content::Glb glb;
+    addPiece(glb, piece.value());
+    return content::writeGlb(arguments.output, glb);
+}
 
 Status bakePalette(const PaletteArguments& arguments, const std::function<void(const std::string&)>& told) {
     const Result<std::vector<std::string>> files = filesOf(arguments);
@@ -283,20 +386,7 @@ Status bakePalette(const PaletteArguments& arguments, const std::function<void(c
         pieces.push_back(std::move(*piece));
     }
     content::Glb glb;
-    for (const Piece& piece : pieces) {
-        content::GlbMaterial material;
-        material.name = piece.name;
-        material.colorImage = int(glb.images.size());
-        material.roughness = piece.roughness;
-        material.repeat = piece.repeats;
-        glb.images.push_back({piece.name, content::encodePng(piece.picture, 3), true});
-        for (size_t lod = 0; lod < piece.lods.size(); ++lod)
-            glb.meshes.push_back(
-                {piece.name + "_lod" + std::to_string(lod), &piece.lods[lod], int(glb.materials.size())});
-        if (piece.collider)
-            glb.meshes.push_back({piece.name + "_collider_lod0", &*piece.collider, int(glb.materials.size())});
-        glb.materials.push_back(material);
-    }
+    for (const Piece& piece : pieces) addPiece(glb, piece);
     return content::writeGlb(arguments.output, glb);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Models as pieces that patterns place: a palette.
+// Models as pieces that patterns place, a palette, and as what plants draw.
 
 #include <functional>
 
@@ -18,5 +18,9 @@ struct PaletteArguments {
 // levels. told: a line about each model. Fails naming the file, where a model can't be read, none is there, or there
 // are too many.
 Status bakePalette(const PaletteArguments& arguments, const std::function<void(const std::string&)>& told);
+
+// Writes one model as a mesh for plants' terminals, such as leaves: its stalk at the origin, 1 long along +Y, looking
+// along +Z, with coarser levels; what its pictures' alpha cuts out stays cut out.
+Status bakeTerminal(const PaletteArguments& arguments, const std::function<void(const std::string&)>& told);
 
 }  // namespace espalier

@@ -1,0 +1,103 @@
+// load/…: what a surface takes of the thread that frames are drawn on, loaded beside them and at once.
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+#include <thread>
+#include <vector>
+
+#include "plugin_api/espalier.hpp"
+#include "tools/bench/bench.hpp"
+
+namespace espalier {
+namespace {
+
+constexpr int kSurfaces = 6;
+constexpr float kApart = 50;  // metres: they touch nothing
+
+// Of this thread: it is what a host's frame has to spare.
+double threadMs() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return double(now.tv_sec) * 1e3 + double(now.tv_nsec) * 1e-6;
+}
+
+EspSurfaceDef defOf(const std::string& path, const EspTransform& place) {
+    EspSurfaceDef def{};
+    def.structSize = sizeof def;
+    def.name = path.c_str();
+    def.place = &place;
+    return def;
+}
+EspTransform at(int i) {
+    EspTransform place = espIdentity();
+    place.rows[0][3] = kApart * float(i);
+    return place;
+}
+
+struct Costs {
+    std::vector<double> atOnce, beside, longest;  // ms; of one call
+    std::string failed;
+};
+
+double loadAtOnce(EspContext* context, const std::string& path, int i, Costs& costs) {
+    const EspTransform place = at(i);
+    EspSurface surface{};
+    const double before = threadMs();
+    if (espLoadSurface(context, path.c_str(), &place, &surface) != ESP_OK || espUpdate(context) != ESP_OK)
+        costs.failed = espLastError(context);
+    const double cost = threadMs() - before;
+    (void)espDestroySurface(context, surface);
+    return cost;
+}
+
+// Updates until it stands; the longest of them is noted, too.
+double loadBeside(EspContext* context, const std::string& path, int i, Costs& costs) {
+    const EspTransform place = at(i);
+    const EspSurfaceDef def = defOf(path, place);
+    EspLoad load{};
+    EspLoadInfo info{};
+    info.structSize = sizeof info;
+    double sum = 0, longest = 0;
+    const auto timed = [&](EspResult (*call)(EspContext*, const EspSurfaceDef*, EspLoad*)) {
+        const double before = threadMs();
+        const EspResult result = call ? call(context, &def, &load) : espUpdate(context);
+        const double cost = threadMs() - before;
+        sum += cost;
+        longest = std::max(longest, cost);
+        if (result != ESP_OK) costs.failed = espLastError(context);
+    };
+    timed(espBeginLoad);
+    while (costs.failed.empty() && info.state < ESP_LOAD_STANDS) {
+        timed(nullptr);
+        if (espLoadInfo(context, load, &info) != ESP_OK || info.state == ESP_LOAD_FAILED) costs.failed = info.message;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    timed(nullptr);  // finds what it touches
+    (void)espEndLoad(context, load);
+    (void)espDestroySurface(context, info.surface);
+    costs.longest.push_back(longest);
+    return sum;
+}
+
+}  // namespace
+
+void loadCases(Bench& bench) {
+    const char* const name = "load/ruin";
+    if (!bench.wants(name)) return;
+    const std::string path = bench.options().contentFolder + "/ruin.surface.glb";
+    if (!std::filesystem::exists(path)) return bench.skip(name, "there is no " + path);
+    esp::Result<esp::Context> made = esp::Context::create();
+    if (!made) return bench.skip(name, made.error().message);
+    EspContext* context = made->get();
+    Costs costs;
+    for (int i = 0; i < kSurfaces && costs.failed.empty(); ++i) {
+        costs.atOnce.push_back(loadAtOnce(context, path, i, costs));
+        costs.beside.push_back(loadBeside(context, path, i, costs));
+    }
+    if (!costs.failed.empty()) return bench.skip(name, costs.failed);
+    bench.add({name, "CPU time of the frame's thread, all calls", "ms", median(costs.beside), "loaded at once",
+               median(costs.atOnce)});
+    bench.add({name, "longest of these calls", "ms", median(costs.longest), "loaded at once", median(costs.atOnce)});
+}
+
+}  // namespace espalier
