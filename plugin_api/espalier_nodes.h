@@ -40,6 +40,7 @@ typedef struct EspNodePort {
     const char* unit;
     const char* help;
     const char* text;     /* the standard text, file or choice; NULL of all others */
+    const char* opener;   /* of an input: the kind of node that it has to be wired to, whatever that gives; NULL: any */
 } EspNodePort;
 
 /* By name, from A on. */
@@ -104,6 +105,8 @@ typedef struct EspNodeState {
     uint64_t instances;
     double ms;                /* that it took the last time; -1: nobody asked (espMeasureGraph) */
     const char* failure;      /* why it couldn't be made; "": it could. Lives until the graph's next call */
+    const char* note;         /* what it says of itself though it was made, such as "1,000,000 of 1,250,000 instances";
+                                 "": nothing. Lives as `failure` does */
 } EspNodeState;
 /* output: NULL or "" for the first. ESP_INVALID_ARGUMENT: there is no such graph, node or output. */
 ESP_API EspResult espNodeStateOf(EspContext* context, EspGraph graph, const char* node, const char* output,

@@ -228,6 +228,12 @@ bool GraphDesk::fits(const NodeCanvas::Port& output, const NodeCanvas::Port& inp
         why += way.front();
         return false;
     }
+    const NodeCanvas::Box& box = canvas.boxes[input.node];
+    if (box.kind && !box.kind->inputs[input.index].opener.empty()) {
+        const std::string& opener = box.kind->inputs[input.index].opener;
+        if (nodeAt(output.node).kind != opener) why = "'" + inputName(input) + "' takes a wire to " + opener;
+        return why.empty();
+    }
     const auto given = typeOf(output), taken = typeOf(input);
     if (!taken || (given && !espNodeTypeTakes(*taken, *given))) {
         why = !taken ? "'" + nodeAt(input.node).kind + "' isn't known: nothing can be wired to it"

@@ -127,7 +127,8 @@ void drawRows(const Pen& pen, uint32_t n, const NodeBoxAt& box) {
         const glm::vec2 at = pen.desk.canvas.placeOf(port) + glm::vec2(10, -.5f * NodeCanvas::kRow + drop);
         const float wide = pen.letters == 0 ? 0 : pen.width(name);
         pen.text(at, light, name, NodeCanvas::kWidth - 14);
-        if (!wired && box.kind && pen.letters > 0) {
+        const bool needed = box.kind && box.kind->inputs[i].wired;
+        if (!wired && box.kind && !needed && pen.letters > 0) {
             const std::string value = shownValue(box.kind->inputs[i], given);
             const float room = NodeCanvas::kWidth - 26 - wide, size = std::min(room, pen.width(value));
             pen.text(at + glm::vec2(NodeCanvas::kWidth - 18 - size, 0), given ? IM_COL32(150, 200, 245, 255) : faint,
@@ -135,7 +136,7 @@ void drawRows(const Pen& pen, uint32_t n, const NodeBoxAt& box) {
         }
         const bool takes = box.kind && !wired && espalier::document::numbersOf(box.kind->inputs[i].type) == 0 &&
                            espalier::document::isText(box.kind->inputs[i].type);
-        if (!takes) drawPort(pen, port, type(port), wired, box.kind && box.kind->inputs[i].wired && !wired);
+        if (!takes) drawPort(pen, port, type(port), wired, needed && !wired);
     }
 }
 
@@ -176,11 +177,12 @@ void drawNode(const Workspace& work, const Pen& pen, uint32_t n) {
     if (pen.pixels > .4f) pen.list.AddRectFilled({a.x + 3, a.y + 4}, {b.x + 4, b.y + 5}, IM_COL32(0, 0, 0, 70), round);
     pen.list.AddRectFilled(a, b, IM_COL32(44, 46, 44, alpha), round);
     pen.list.AddRectFilled(a, {b.x, title}, head, round, ImDrawFlags_RoundCornersTop);
-    const ImU32 edge = selected          ? IM_COL32(240, 245, 235, 255)
-                       : failed          ? ImGui::GetColorU32(kBad)
-                       : state.waits > 0 ? IM_COL32(200, 150, 60, 255)
-                       : shown           ? IM_COL32(190, 180, 120, 255)
-                                         : IM_COL32(20, 21, 20, 255);
+    const bool noted = state.note && *state.note;
+    const ImU32 edge = selected                   ? IM_COL32(240, 245, 235, 255)
+                       : failed                   ? ImGui::GetColorU32(kBad)
+                       : state.waits > 0 || noted ? IM_COL32(200, 150, 60, 255)
+                       : shown                    ? IM_COL32(190, 180, 120, 255)
+                                                  : IM_COL32(20, 21, 20, 255);
     pen.list.AddRect(a, b, edge, round, 0, selected ? std::max(1.5f, 2 * pen.pixels) : 1);
     const float drop = .5f * (NodeCanvas::kTitle - kLetters);
     const ImU32 light = ImGui::GetColorU32(ImGuiCol_Text);

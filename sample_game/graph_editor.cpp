@@ -109,7 +109,8 @@ void insertInWire(Workspace& work, const GraphDesk& desk, uint32_t gesture) {
         const auto taken = desk.typeOf(wire.to);
         const EspNodeType gives =
             box.kind->outputs[0].asFirst && i == 0 ? given.value_or(ESP_NODE_GEOMETRY) : box.kind->outputs[0].type;
-        if (!desk.fits(wire.from, {uint32_t(n), i, false}, why) || (taken && !espNodeTypeTakes(*taken, gives)))
+        if (!desk.fits(wire.from, {uint32_t(n), i, false}, why) || !desk.fits({uint32_t(n), 0, true}, wire.to, why) ||
+            (taken && !espNodeTypeTakes(*taken, gives)))
             continue;
         connect(work, desk, wire.from, {uint32_t(n), i, false}, {}, gesture);
         connect(work, desk, {uint32_t(n), 0, true}, wire.to, wire, gesture);
@@ -188,6 +189,7 @@ void nodeTip(Workspace& work, const GraphDesk& desk, uint32_t n) {
     if (state.failure && *state.failure) text += "\n" + std::string(state.failure);
     if (state.waits) text += "\nIt stands as it was last: something that it reads has failed";
     if (const std::string made = stateText(state); !made.empty()) text += "\n" + made;
+    if (state.note && *state.note) text += "\n" + std::string(state.note);
     char took[64];
     std::snprintf(took, sizeof took, "\n%.3g ms the last time, made %u times", state.ms, state.evaluations);
     if (state.made && state.ms >= 0) text += took;

@@ -79,6 +79,8 @@ std::optional<uint32_t> inputFor(const NodeKind& kind, std::optional<EspNodeType
         for (uint32_t i = 0; i < kind.inputs.size(); ++i) {
             const NodePort& port = kind.inputs[i];
             if (needed && !port.wired && (!any || port.name != giver)) continue;
+            if (!port.opener.empty() && smallName(port.opener) != giver) continue;
+            if (!port.opener.empty()) return i;
             if (!given || espNodeTypeTakes(port.type, *given)) return i;
         }
     }
@@ -121,7 +123,7 @@ void wireNew(Workspace& work, const GraphDesk& desk, const NodeKind& kind, const
     const GraphNode& node = desk.model.nodes[size_t(n)];
     for (const NodePort& input : before->inputs) {
         const GraphGiven* there = node.given(input.name);
-        if (!input.wired || (there && there->wire() && !input.many)) continue;
+        if (!input.wired || !input.opener.empty() || (there && there->wire() && !input.many)) continue;
         const std::string wire = wireOf(kind, name, input.type);
         if (wire.empty()) continue;
         work.perform(ConnectNodes{desk.graph, node.name, input.name, wire}, gesture);
@@ -251,7 +253,8 @@ void frameNodes(GraphDesk& desk, bool selectedOnly) {
 EspNodeState nodeState(const Workspace& work, const std::string& node) {
     EspNodeState state{};
     const EspGraph graph = work.scene().graphs[work.graphs.open].id;
-    if (espNodeStateOf(work.context.get(), graph, node.c_str(), nullptr, &state) != ESP_OK) state.failure = nullptr;
+    if (espNodeStateOf(work.context.get(), graph, node.c_str(), nullptr, &state) != ESP_OK)
+        state.failure = state.note = nullptr;
     return state;
 }
 

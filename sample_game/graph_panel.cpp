@@ -133,12 +133,13 @@ void inputRow(Workspace& work, const Row& row) {
     toolTip(tipOf(row.port).c_str());
     if (row.given && row.given->wire()) {
         wiresAt(work, row);
-    } else if (numbersOf(row.port.type) > 0 || isText(row.port.type)) {
+    } else if (row.port.opener.empty() && (numbersOf(row.port.type) > 0 || isText(row.port.type))) {
         valueOf(work, row);
     } else {
         ImGui::SameLine();
         ImGui::TextColored(row.port.wired ? kWarning : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled),
-                           "waits for a wire to %s", espNodeTypeName(row.port.type));
+                           "waits for a wire to %s",
+                           row.port.opener.empty() ? espNodeTypeName(row.port.type) : row.port.opener.c_str());
     }
     ImGui::PopID();
 }
@@ -164,6 +165,7 @@ void header(Workspace& work, GraphDesk& desk, const GraphNode& node, const NodeK
         else
             ImGui::TextDisabled("%s", made.c_str());
     }
+    if (state.note && *state.note) ImGui::TextColored(kWarning, "%s", state.note);
 }
 
 }  // namespace

@@ -170,6 +170,10 @@ void deformBlock(const DeformArgs& a, uint32_t first) {
 void deform(DeformArgs a, const HostRun& run) {
     overLanes(
         a.to.count, run, [&](uint32_t first) { deformBlock(a, first); }, [&](uint32_t i) { deformElement(a, i); });
+    if (a.toNormals.v)
+        run.crew.overRange(a.to.count, 1024, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) deformNormal(a, uint32_t(i));
+        });
 }
 
 struct alignas(64) FrameLanes {

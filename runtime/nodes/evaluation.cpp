@@ -64,10 +64,12 @@ Status NodeEvaluation::load(NodeGraph graph, bool unfinished) {
         const bool stands = same[n] && !old.version->due();
         running[n].outputs = std::move(old.outputs);
         running[n].kept = std::move(old.kept);
+        if (sameLoop(graph, *checked, n, uint32_t(before))) running[n].passes = std::move(old.passes);
         running[n].evaluations = old.evaluations;
         running[n].ms = old.ms;
         if (!stands) continue;
         running[n].failure = old.failure;
+        running[n].note = old.note;
         running[n].blocked = old.blocked;
         running[n].version->made();
     }
@@ -188,50 +190,57 @@ Status NodeEvaluation::forget(const std::vector<uint32_t>& due, Status failed) {
     for (const uint32_t n : due) {
         for (NodeSlot& slot : running_[n].kept.slots) slot.madeFrom = 0;
         running_[n].kept.memory.reset();
+        running_[n].passes.clear();
     }
     return failed;
 }
 
 // Fails only where the device does.
-Status NodeEvaluation::makeNode(uint32_t n, NodeWorkList& list) {
-    Running& running = running_[n];
+Status NodeEvaluation::makeIn(const Scope* scope, uint32_t n, Made& made, NodeWorkList& list) {
     const CheckedGraph::Node& node = checked_.nodes[n];
-    running.failure.clear();
-    running.blocked = false;
+    made.failure.clear();
+    made.note.clear();
+    made.blocked = false;
     if (!node.kind) {
-        running.failure = "there is no kind of node '" + graph_.nodes[n].kind + "'";
+        made.failure = "there is no kind of node '" + graph_.nodes[n].kind + "'";
         return Done{};
     }
     if (!node.missing.empty()) {
-        running.failure = node.missing;
+        made.failure = node.missing;
         return Done{};
     }
     NodeWork::Given given{*node.kind, node.constants, {}, time_, files_, graph_.file};
     given.wires.resize(node.kind->inputs.size());
     for (const CheckedGraph::Wire& wire : node.wires) {
-        const Running& from = running_[wire.node];
-        running.blocked =
-            running.blocked || !from.failure.empty() || from.blocked || from.outputs.size() <= wire.output;
-        if (!running.blocked) given.wires[wire.port].push_back(&from.outputs[wire.output]);
+        const Made& from = madeIn(scope, wire.node);
+        made.blocked = made.blocked || !from.failure.empty() || from.blocked || from.outputs.size() <= wire.output;
+        if (!made.blocked) given.wires[wire.port].push_back(&from.outputs[wire.output]);
     }
-    if (running.blocked) return Done{};
+    if (made.blocked) return Done{};
     if (node.muted) {
-        running.outputs.assign(1, *given.wires.front().front());
+        made.outputs.assign(1, *given.wires.front().front());
         return Done{};
+    }
+    if (scope && scope->loop->opener == n) given.pass = scope->given;
+    if (node.loop >= 0) {
+        given.makePass = [&](const LoopPass& pass) { return makePass(scope, n, made, pass, list); };
+        given.passReads = checked_.loops[size_t(node.loop)].reads;
     }
     const size_t stages = list.stages.size(), uploads = list.uploads.size();
-    NodeWork work(std::move(given), *machine_, running.kept, list);
-    const Status made = node.kind->make(work);
-    if (made) {
-        running.outputs = std::move(work.outputs());
+    NodeWork work(std::move(given), *machine_, made.kept, list);
+    const Status done = node.kind->make(work);
+    if (done) {
+        made.outputs = std::move(work.outputs());
+        made.note = work.noted();
         return Done{};
     }
-    if (made.failure().ofDevice()) return made;
-    running.failure = made.failure().diagnostics.front().message;
+    if (done.failure().ofDevice()) return done;
+    made.failure = done.failure().diagnostics.front().message;
     // Nothing of it runs, so nothing of it may be taken for made.
     list.stages.resize(std::min(stages, list.stages.size()));
     list.uploads.resize(std::min(uploads, list.uploads.size()));
-    for (NodeSlot& slot : running.kept.slots) slot.madeFrom = 0;
+    for (NodeSlot& slot : made.kept.slots) slot.madeFrom = 0;
+    made.passes.clear();
     return Done{};
 }
 
@@ -264,7 +273,7 @@ std::optional<NodeEvaluation::NodeState> NodeEvaluation::state(std::string_view 
     const int n = find(node);
     if (n < 0) return {};
     const Running& running = running_[size_t(n)];
-    NodeState state{nullptr, &running.failure, running.blocked, running.evaluations, running.ms};
+    NodeState state{nullptr, &running.failure, &running.note, running.blocked, running.evaluations, running.ms};
     if (output < running.outputs.size()) state.value = &running.outputs[output];
     return state;
 }
@@ -284,6 +293,16 @@ std::vector<Diagnostic> NodeEvaluation::failures() const {
         const GraphNode& node = graph_.nodes[n];
         if (!running_[n].failure.empty())
             all.push_back({graph_.file, node.place.line, node.place.column, node.name, running_[n].failure, false});
+    }
+    return all;
+}
+
+std::vector<Diagnostic> NodeEvaluation::notes() const {
+    std::vector<Diagnostic> all;
+    for (uint32_t n = 0; n < running_.size(); ++n) {
+        const GraphNode& node = graph_.nodes[n];
+        if (!running_[n].note.empty())
+            all.push_back({graph_.file, node.place.line, node.place.column, node.name, running_[n].note, true});
     }
     return all;
 }

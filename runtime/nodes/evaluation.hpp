@@ -53,9 +53,10 @@ class NodeEvaluation {
     struct NodeState {
         const NodeValue* value = nullptr;  // of its first output; null: it was never made
         const std::string* failure = nullptr;
-        bool blocked = false;        // something that it reads has failed
-        uint32_t evaluations = 0;    // that there were
-        std::optional<double> ms{};  // of the last one; none: it wasn't measured
+        const std::string* note = nullptr;  // what it says of itself though it could be made
+        bool blocked = false;               // something that it reads has failed
+        uint32_t evaluations = 0;           // that there were
+        std::optional<double> ms{};         // of the last one; none: it wasn't measured
     };
     std::optional<NodeState> state(std::string_view node, size_t output = 0) const;  // none: there is no such node
     // Each node is run by itself from now on, so that its time is known.
@@ -68,6 +69,7 @@ class NodeEvaluation {
     // Places as its program leaves them; fails for what is scattered.
     Result<std::vector<glm::vec3>> places(const GeometryPart& part);
     std::vector<Diagnostic> failures() const;
+    std::vector<Diagnostic> notes() const;
     // Differs whenever an evaluation has made something.
     Version revision() const { return revision_; }
     // Differs also when other nodes are shown.
@@ -80,19 +82,44 @@ class NodeEvaluation {
     const Stats& stats() const { return stats_; }
 
   private:
-    struct Running {
-        std::unique_ptr<graph::Node> version;
+    struct Pass;
+    struct Made {
         std::vector<NodeValue> outputs;  // empty: never made
         NodeKept kept;
-        std::string failure;   // why it couldn't be made; "": it could
-        bool blocked = false;  // something that it reads has failed
+        std::vector<Pass> passes;   // of what it repeats
+        std::string failure, note;  // why it couldn't be made; "": it could
+        bool blocked = false;       // something that it reads has failed
+    };
+    // What a loop's nodes have made in one pass, and from what.
+    struct Pass {
+        std::vector<Made> nodes;  // [place in the loop's body]
+        LoopPass given;
+        Version madeFrom = 0;  // 0: it has to be made anew
+    };
+    // The passes that are being made, the innermost first.
+    struct Scope {
+        const Scope* outer = nullptr;
+        const CheckedGraph::Loop* loop = nullptr;
+        const LoopPass* given = nullptr;
+        std::vector<Made>* nodes = nullptr;
+        uint64_t passes = 1;  // of all scopes together
+        uint32_t depth = 1;
+    };
+    struct Running : Made {
+        std::unique_ptr<graph::Node> version;
         uint32_t evaluations = 0;
         std::optional<double> ms;
     };
     using Names = std::map<std::string, uint32_t, std::less<>>;
     std::vector<uint32_t> pulledBy(std::vector<uint32_t> roots) const;
     Status make(const std::vector<uint32_t>& pulled);
-    Status makeNode(uint32_t n, NodeWorkList& list);
+    Status makeNode(uint32_t n, NodeWorkList& list) { return makeIn(nullptr, n, running_[n], list); }
+    Status makeIn(const Scope* scope, uint32_t n, Made& made, NodeWorkList& list);
+    const Made& madeIn(const Scope* scope, uint32_t n) const;
+    Result<const NodeValue*> makePass(const Scope* outer, uint32_t n, Made& made, const LoopPass& given,
+                                      NodeWorkList& list);
+    Status makeBody(const Scope& scope, NodeWorkList& list);
+    bool sameLoop(const NodeGraph& graph, const CheckedGraph& checked, uint32_t now, uint32_t before) const;
     Status makeTimed(uint32_t n, NodeWorkList& list, Stats& measured);
     Status forget(const std::vector<uint32_t>& due, Status failed);
     std::vector<bool> unchanged(const NodeGraph& graph, const CheckedGraph& checked) const;

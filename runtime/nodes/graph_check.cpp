@@ -23,6 +23,8 @@ class Checker {
         muteNodes();
         if (mistakes_.empty())
             for (uint32_t n : out_.order) checkNode(n);
+        if (mistakes_.empty())
+            for (uint32_t n : out_.order) findLoop(n);
         for (const auto& [name, place] : graph_.shown) {
             const uint32_t n = nodeNamed(name);
             if (n == kNone)
@@ -104,6 +106,13 @@ class Checker {
                         "'" + input.from + "' (" + kind->name + ") has no output '" + input.output + "'");
                 continue;
             }
+            const std::string opener = made.kind ? made.kind->inputs[size_t(port)].opener : "";
+            if (!opener.empty() && (!kind || kind->name != opener)) {
+                mistake(input.place, node.name,
+                        "'" + input.port + "' takes a wire to " + opener + ", but '" + input.from + "' is " +
+                            graph_.nodes[from].kind);
+                continue;
+            }
             made.wires.push_back({uint32_t(port), from, uint32_t(output)});
         }
     }
@@ -177,6 +186,7 @@ class Checker {
             if (!from.kind || from.unsure) continue;  // it gives nothing, which is told when the graph runs
             const NodePort& port = made.kind->inputs[wire.port];
             const ValueType given = from.outputs[wire.output];
+            if (*port.opener) continue;  // the node is meant, whatever it gives
             if (!accepts(port.type, given)) {
                 const auto input = std::ranges::find_if(node.inputs, [&](const NodeInput& i) {
                     return i.constant.kind == Literal::Kind::none && i.port == port.name;
@@ -191,8 +201,8 @@ class Checker {
             const bool wired =
                 std::ranges::any_of(made.wires, [&](const CheckedGraph::Wire& w) { return w.port == p; });
             if (wired || made.constants[p].kind != Literal::Kind::none || port.optional) continue;
-            const std::string missing =
-                "'" + port.name + "' is missing: " + made.kind->name + " needs a wire to " + nameOf(port.type);
+            const std::string missing = "'" + port.name + "' is missing: " + made.kind->name + " needs a wire to " +
+                                        (*port.opener ? port.opener : nameOf(port.type));
             if (!unfinished_) mistake(node.place, node.name, missing);
             if (made.missing.empty()) made.missing = missing;
         }
@@ -206,6 +216,37 @@ class Checker {
         if (!made.unsure) made.outputs[output] = from->outputs[made.wires.front().output];
     }
 
+    // What a node repeats: of all that its repeated input reads, what reads the opener.
+    void findLoop(uint32_t n) {
+        CheckedGraph::Node& made = out_.nodes[n];
+        if (!made.kind || !*made.kind->repeats || !made.missing.empty()) return;
+        if (out_.loops.size() == NodeGraph::kMostLoops)
+            return mistake(graph_.nodes[n].place, graph_.nodes[n].name,
+                           "a graph has at most " + std::to_string(NodeGraph::kMostLoops) + " nodes that repeat");
+        CheckedGraph::Loop loop;
+        for (const CheckedGraph::Wire& wire : made.wires) {
+            if (*made.kind->inputs[wire.port].opener) loop.opener = wire.node;
+            if (made.kind->inputs[wire.port].name == made.kind->repeats) loop.root = wire;
+        }
+        std::vector<bool> read(out_.nodes.size()), differs(out_.nodes.size());
+        read[loop.root.node] = differs[loop.opener] = true;
+        for (size_t i = out_.order.size(); i-- > 0;)
+            if (read[out_.order[i]])
+                for (const CheckedGraph::Wire& wire : out_.nodes[out_.order[i]].wires) read[wire.node] = true;
+        for (const uint32_t b : out_.order) {
+            if (!read[b]) continue;
+            for (const CheckedGraph::Wire& wire : out_.nodes[b].wires) {
+                if (differs[wire.node]) differs[b] = true;
+                if (wire.node == loop.opener) loop.reads |= 1u << wire.output;
+            }
+            if (!differs[b]) continue;
+            loop.at.emplace(b, uint32_t(loop.body.size()));
+            loop.body.push_back(b);
+        }
+        made.loop = int(out_.loops.size());
+        out_.loops.push_back(std::move(loop));
+    }
+
     const NodeGraph& graph_;
     const bool unfinished_;
     std::unordered_map<std::string, uint32_t> numbers_;
@@ -217,6 +258,7 @@ class Checker {
 
 std::string mistakeInConstant(const Literal& given, const NodePort& port) {
     const bool number = given.kind == Literal::Kind::number, text = given.kind == Literal::Kind::text;
+    if (*port.opener) return std::string("takes a wire to ") + port.opener;
     switch (port.type) {
         case ValueType::number:
             if (!number) return "takes a number";

@@ -19,9 +19,9 @@ std::vector<NodeKind> allKinds() {
         const char* name;
         std::vector<NodeKind> (*rows)();
     };
-    constexpr Group kGroups[] = {{"Points", pointKinds}, {"Points", fluidKinds},       {"Curves", curveKinds},
-                                 {"Meshes", meshKinds},  {"Modifiers", modifierKinds}, {"Values", valueKinds},
-                                 {"Stages", stageKinds}};
+    constexpr Group kGroups[] = {{"Points", pointKinds},       {"Points", fluidKinds},   {"Curves", curveKinds},
+                                 {"Meshes", meshKinds},        {"Meshes", scatterKinds}, {"Loops", loopKinds},
+                                 {"Modifiers", modifierKinds}, {"Values", valueKinds},   {"Stages", stageKinds}};
     for (const Group& group : kGroups)
         for (NodeKind& kind : group.rows()) {
             kind.group = group.name;

@@ -23,6 +23,7 @@ struct NodePort {
     std::vector<std::string> words = {};  // of a choice
     bool many = false;                    // takes any number of wires; the last port only
     bool optional = false;                // a wire that may be missing
+    const char* opener = "";              // the kind that it has to be wired to: where what is repeated begins
 };
 
 struct NodeOutput {
@@ -40,6 +41,8 @@ struct NodeKind {
     std::vector<const char*> kernels = {};  // below shaders/; native loops go by the same names
     bool readsTime = false;
     const char* group = "";  // in lists of kinds
+    // The input whose nodes are made once a pass, from the opener on (NodePort::opener). "": nothing is repeated.
+    const char* repeats = "";
 
     int port(std::string_view wanted) const;    // -1: none
     int output(std::string_view wanted) const;  // likewise; "": the first
@@ -54,6 +57,8 @@ std::vector<NodeKind> pointKinds();
 std::vector<NodeKind> fluidKinds();
 std::vector<NodeKind> curveKinds();
 std::vector<NodeKind> meshKinds();
+std::vector<NodeKind> scatterKinds();
+std::vector<NodeKind> loopKinds();
 std::vector<NodeKind> modifierKinds();
 std::vector<NodeKind> valueKinds();
 std::vector<NodeKind> stageKinds();

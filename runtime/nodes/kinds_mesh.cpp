@@ -1,4 +1,4 @@
-// Meshes: lofts, primitives, and what is scattered.
+// Meshes: lofts and primitives.
 #include "runtime/nodes/node_work.hpp"
 #include "runtime/surface/surface.hpp"
 #include "shaders/shared/node_loft.h"
@@ -213,41 +213,6 @@ Status makeMeshFile(NodeWork& work) {
     return giveMesh(work, mesh);
 }
 
-// Instances stay one step of a program: nothing is written for each.
-Status makeScatter(NodeWork& work) {
-    Geometry out;
-    uint64_t most = 0;
-    for (const GeometryPart& on : work.geometry("points")) {
-        Result<GeometryPart> points = work.realised(on);
-        if (!points) return points.failure();
-        DeformOp op{};
-        op.kind = kDeformInstance;
-        op.seed = work.whole("seed");
-        op.points = points->positions;
-        op.points.count = points->elements;
-        op.row = points->row;
-        op.used = points->used;
-        if (points->normals && work.choice("up") == 1) op.normals = points->normals->as<UintBuf>();
-        if (points->sizes) op.sizes = points->sizes->as<FloatBuf>();
-        op.a[0] = work.number("size");
-        op.a[1] = work.number("sizeSpread");
-        op.a[2] = work.number("turnSpread");
-        for (GeometryPart part : work.geometry("shape")) {
-            part.program.push_back(op);
-            part.held.push_back(points->positionBlock);
-            if (points->normals) part.held.push_back(points->normals);
-            if (points->sizes) part.held.push_back(points->sizes);
-            if (part.program.size() > kMostDeforms) return Failure("", "more than 64 steps act on one geometry");
-            most = std::max(most, part.instances());
-            out.push_back(std::move(part));
-        }
-    }
-    if (most > kMostNodeInstances)
-        return Failure("", std::to_string(most) + " instances are more than 1,000,000; scatter over fewer points");
-    work.give(std::move(out));
-    return Done{};
-}
-
 }  // namespace
 
 std::vector<NodeKind> meshKinds() {
@@ -256,7 +221,6 @@ std::vector<NodeKind> meshKinds() {
     const auto size = [] { return vectorPort("size", glm::vec3(1), 0, kFar, "m", "along each axis"); };
     const auto cells = [] { return wholePort("cells", 1, 1, 1000, "quads along each side"); };
     const std::vector<NodeOutput> mesh{{"mesh", ValueType::mesh}};
-    NodePort up{"up", ValueType::choice, "y", 0, 0, "", "what a shape's y axis becomes", {"y", "normal"}};
     return {
         {"Loft",
          "A shape is swept along each path: tubes, ribbons, mouldings. Frames turn as little as they can.",
@@ -285,17 +249,6 @@ std::vector<NodeKind> meshKinds() {
          {{"file", ValueType::file, "", 0, 0, "", "beside the graph's own file"}},
          mesh,
          makeMeshFile},
-        {"Scatter",
-         "A shape at each point, each sample of curves, or each vertex of a mesh. Scattered shapes may be scattered "
-         "again; all together "
-         "are "
-         "1,000,000 at most.",
-         {wirePort("points", ValueType::geometry, "where"), wirePort("shape", ValueType::geometry, "what"),
-          numberPort("size", 1, 0, kFar, "", "times its own"),
-          numberPort("sizeSpread", 0, 0, 1, "", "how far sizes differ: 0.2 is a fifth up or down"),
-          numberPort("turnSpread", 1, 0, 1, "turns", "how far shapes are turned about their y axes"), up, seedPort()},
-         {{"instances", ValueType::geometry}},
-         makeScatter},
     };
 }
 

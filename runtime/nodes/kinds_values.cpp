@@ -59,6 +59,11 @@ Status makeRound(NodeWork& work) {
     work.give(std::floor(work.number("value") + 0.5f));
     return Done{};
 }
+Status makeRandom(NodeWork& work) {
+    const float low = work.number("low"), high = work.number("high");
+    work.give(low + (high - low) * nodeRandom(work.whole("seed"), work.whole("key"), 0));
+    return Done{};
+}
 Status makeMaterial(NodeWork& work) {
     work.give(MaterialLook{work.vector("colour"), work.number("roughness")});
     return Done{};
@@ -105,6 +110,12 @@ std::vector<NodeKind> valueKinds() {
          {{"value", ValueType::number}},
          makeMath},
         {"Round", "The nearest whole number.", {number("value", 0)}, {{"whole", ValueType::whole}}, makeRound},
+        {"Random",
+         "A number by chance. Wire its key to that of a Variant, and each variant has another.",
+         {number("low", 0, "at least"), number("high", 1, "at most"),
+          wholePort("key", 0, 0, 16777215, "what it follows from, with the seed"), seedPort()},
+         {{"value", ValueType::number}},
+         makeRandom},
         {"Material",
          "How a surface looks.",
          {{"colour", ValueType::colour, plain.colour, 0, 1, "", "linear: red, green and blue"},

@@ -3,6 +3,7 @@
 // A procedural graph as its text has it: what there is, not what comes of it. docs/graph.md describes the text.
 
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -34,7 +35,7 @@ struct GraphNode {
 
 struct NodeGraph {
     static constexpr int kVersion = 1;
-    static constexpr size_t kMostNodes = 100000;
+    static constexpr size_t kMostNodes = 100000, kMostLoops = 256;
     std::string file;  // for messages
     std::vector<GraphNode> nodes;
     std::vector<std::pair<std::string, TextPlace>> shown;
@@ -66,11 +67,22 @@ struct CheckedGraph {
         std::vector<Wire> wires;         // by port
         std::vector<ValueType> outputs;  // types
         bool muted = false;
+        int loop = -1;        // place in `loops` of what it repeats; -1: nothing
         std::string missing;  // of what isn't wired though it has to be: why it can't be made; "": nothing is
         bool unsure = false;  // what it gives can't be known before what it reads is
     };
+    // Nodes that are made once for each pass of a node that repeats them: all that lie on a way from the opener to the
+    // repeated input.
+    struct Loop {
+        uint32_t opener = 0;                        // in nodes
+        Wire root;                                  // what a pass gives
+        std::vector<uint32_t> body;                 // in order, the opener first; empty: passes don't differ
+        std::unordered_map<uint32_t, uint32_t> at;  // node -> place in `body`
+        uint32_t reads = 0;                         // a bit for each output of the opener that the body reads
+    };
     std::vector<Node> nodes;  // as NodeGraph::nodes
     std::vector<uint32_t> order;
+    std::vector<Loop> loops;
     std::vector<uint32_t> shown;
     std::vector<Diagnostic> warnings;
 };

@@ -89,15 +89,15 @@ Result<NodePlanes> NodeWork::sentPlaces(const char* name, std::span<const glm::v
     return NodePlanes{into->as<FloatBuf>(), stride, count};
 }
 
-Result<GeometryPart> NodeWork::realised(const GeometryPart& part) {
+Result<GeometryPart> NodeWork::realised(const GeometryPart& part, bool normals) {
     if (part.program.empty()) return part;
     if (std::ranges::any_of(part.program, [](const DeformOp& op) { return op.kind == kDeformInstance; }))
         return Failure("", "needs positions of its own, but is given instances");
-    return deformed(part);
+    return deformed(part, normals);
 }
 
 // Its instances lie one behind the other, each in whole rows.
-Result<GeometryPart> NodeWork::deformed(const GeometryPart& part) {
+Result<GeometryPart> NodeWork::deformed(const GeometryPart& part, bool normals) {
     GeometryPart out = part;
     const uint64_t copies = part.instances(), each = nodeRow(part.positions.count);
     if (copies * each > kMostNodeElements)
@@ -114,6 +114,15 @@ Result<GeometryPart> NodeWork::deformed(const GeometryPart& part) {
     args.ops = ops->block->as<DeformOpBuf>();
     args.opCount = uint32_t(part.program.size());
     args.each = uint32_t(each);
+    if (normals && part.normals) {
+        Result<Room> turned = room("deformed normals", uint64_t(nodeRow(count)) * sizeof(uint32_t));
+        if (!turned) return turned.failure();
+        out.normals = turned->block;
+        args.toNormals = turned->block->as<UintBuf>();
+        args.step = std::max(1e-3f * part.extent, 1e-9f);
+        args.perStep = 1 / args.step;
+        args.headings = part.kind == GeometryPart::Kind::points ? 1 : 0;
+    }
     run("nodes/deform.comp", args, args.to.count);
     out.elements = uint32_t(copies * part.elements);
     if (copies > 1 && part.elements == part.used) out.row = uint32_t(each);

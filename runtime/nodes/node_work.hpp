@@ -25,6 +25,13 @@ struct NodeKept {
     std::unique_ptr<NodeMemory> memory;
 };
 
+// One time of several in which nodes are made.
+struct LoopPass {
+    uint32_t index = 0, count = 1;
+    glm::vec3 place{0};                  // where what it gives stands, if that is asked for
+    const NodeValue* carried = nullptr;  // what the pass before gave; null: it is the first
+};
+
 struct GraphTime {
     double frame = 0;        // a whole number
     double step = 1.0 / 30;  // seconds from one frame to the next
@@ -51,6 +58,10 @@ class NodeWork {
         GraphTime time;
         const NodeFiles& files;
         const std::string& graphFile;
+        const LoopPass* pass = nullptr;  // of an opener: the pass that it opens; null: none does
+        // Of a node that repeats: makes a pass, and which outputs of the opener its nodes read.
+        std::function<Result<const NodeValue*>(const LoopPass&)> makePass = {};
+        uint32_t passReads = 0;
     };
     NodeWork(Given given, NodeMachine& machine, NodeKept& kept, NodeWorkList& list)
         : given_(std::move(given)), machine_(machine), kept_(kept), list_(list), outputs_(given_.kind.outputs.size()) {}
@@ -71,6 +82,13 @@ class NodeWork {
     }
     std::span<const NodeValue* const> wires(const char* port) const;
     const GraphTime& time() const { return given_.time; }
+    const LoopPass& pass() const { return given_.pass ? *given_.pass : kOnly; }
+    // What the repeated input gives in this pass; it lives as long as the node's evaluation.
+    Result<const NodeValue*> makePass(const LoopPass& pass) const { return given_.makePass(pass); }
+    bool passesRead(uint32_t output) const { return given_.passReads >> output & 1; }
+    // What the node says of itself though it could be made.
+    void note(std::string text) { note_ = std::move(text); }
+    const std::string& noted() const { return note_; }
     // Of what the node is given that lies at these ports as constants; with `more` it says what a block is made from.
     static uint64_t key(std::initializer_list<uint64_t> more);
 
@@ -110,8 +128,8 @@ class NodeWork {
     std::vector<NodeValue>& outputs() { return outputs_; }
 
     // Geometry whose program has been gone through: positions that a kernel can read as they are. Fails where there are
-    // instances.
-    Result<GeometryPart> realised(const GeometryPart& part);
+    // instances. Its normals are those before the program, unless they are asked for.
+    Result<GeometryPart> realised(const GeometryPart& part, bool normals = false);
     // Runs the kernels so far: for nodes that have very many. A failure of the device is the whole evaluation's.
     Status runNow();
     // What kernels so far leave in memory, read at once: for nodes whose counts follow from contents. Places as the
@@ -132,7 +150,9 @@ class NodeWork {
     Result<const GeometryPart*> part(const char* port, GeometryPart::Kind kind) const;
 
   private:
-    Result<GeometryPart> deformed(const GeometryPart& part);
+    Result<GeometryPart> deformed(const GeometryPart& part, bool normals = false);
+
+    static constexpr LoopPass kOnly{};
 
     Given given_;
     NodeMachine& machine_;
@@ -140,6 +160,7 @@ class NodeWork {
     NodeWorkList& list_;
     std::vector<NodeValue> outputs_;
     size_t nextSlot_ = 0;
+    std::string note_;
 };
 
 }  // namespace espalier

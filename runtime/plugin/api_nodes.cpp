@@ -37,6 +37,7 @@ EspNodePort infoOf(const NodePort& port) {
     info.unit = port.unit;
     info.help = port.help;
     info.text = port.standard.kind == Literal::Kind::text ? port.standard.text.c_str() : nullptr;
+    info.opener = *port.opener ? port.opener : nullptr;
     return info;
 }
 
@@ -277,6 +278,8 @@ EspResult espNodeStateOf(EspContext* context, EspGraph id, const char* node, con
         for (const GraphTrouble& trouble : graph->stands.troubles())
             if (trouble.node == node && graph->failures.empty()) graph->failures = trouble.why;
         info.failure = graph->failures.c_str();
+        graph->note = *state->note;
+        info.note = graph->note.c_str();
         give("espNodeStateOf", out, info);
         return ESP_OK;
     });

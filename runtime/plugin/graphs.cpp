@@ -15,10 +15,12 @@ Result<NodeFile> readBeside(const Files& files, const std::string& graph, const 
     return NodeFile{place.value().string(), std::move(*bytes)};
 }
 
-// Failures that are new.
+// Failures and notes that are new.
 void tellFailures(EspContext& context, LoadedGraph& graph) {
-    const std::vector<Diagnostic> failures = failuresOf(graph);
-    const std::string now = failures.empty() ? std::string() : toString(failures);
+    std::vector<Diagnostic> all = failuresOf(graph);
+    const std::vector<Diagnostic> notes = graph.evaluation->notes();
+    all.insert(all.end(), notes.begin(), notes.end());
+    const std::string now = all.empty() ? std::string() : toString(all);
     if (now != graph.told && !now.empty()) context.log(Severity::warning, now);
     graph.told = now;
 }

@@ -15,8 +15,8 @@ struct LoadedGraph {
     std::unique_ptr<NodeEvaluation> evaluation;
     bool measured = false;  // its nodes' times are
     GraphStands stands;
-    std::string text, failures;  // that a host was handed
-    std::string told;            // failures that were logged
+    std::string text, failures, note;  // that a host was handed
+    std::string told;                  // failures and notes that were logged
     uint32_t evaluations = 0;
     Geometry shown;  // by the last evaluation, and boxes around its parts
     std::vector<NodeBox> boxes;

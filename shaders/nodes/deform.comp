@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Positions and a program -> positions.
+// Positions and a program -> positions, and normals where they are asked for.
 #include "shaders/shared/extensions.glsl"
 #include "shaders/shared/dispatch.glsl"
 #include "shaders/shared/node_deform.h"
@@ -10,5 +10,7 @@ layout(push_constant, scalar) uniform Data { DeformArgs a; };
 
 void main() {
     uint i = itemIndex();
-    if (i < a.to.count) deformElement(a, i);
+    if (i >= a.to.count) return;
+    deformElement(a, i);
+    if (IS_GIVEN(a.toNormals)) deformNormal(a, i);
 }

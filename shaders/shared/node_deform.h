@@ -14,8 +14,9 @@ CONST_UINT(kDeformBend, 3u);       // a: centre, unit axis, unit direction towar
 CONST_UINT(kDeformNoise, 4u);      // a: metres, features a metre, offset; seed
 CONST_UINT(kDeformWave, 5u);       // a: metres along a unit direction, travel (unit) / metres a wave, turns
 CONST_UINT(kDeformDisplace, 6u);   // as noise, along the normal
-CONST_UINT(kDeformInstance, 7u);   // points: places; if given, normals: upwards there, sizes: times those;
-                                   // a: size, spread of sizes, of turns; seed
+CONST_UINT(kDeformInstance, 7u);   // points: places; if given, normals: upwards there, sizes: times those,
+                                   // which: the place that each instance stands at; a: size, spread of sizes, of
+                                   // turns; seed
 CONST_UINT(kDeformFunction, 8u);   // code: normals, of `row` words; a: its inputs a, b, c
 CONST_UINT(kMostDeforms, 64u);     // steps of a program
 
@@ -25,10 +26,11 @@ struct DeformOp {
     NodePlanes points;   // count: without padding
     UintBuf normals;
     FloatBuf sizes;
+    UintBuf which;
     uint row, used;      // of points: of each `row` elements in memory the first `used` are meant
     float a[12];
 };
-STATIC_SIZE(DeformOp, 96);
+STATIC_SIZE(DeformOp, 104);
 BUFFER(DeformOpBuf, DeformOp)
 
 FN vec3 axisOf(DeformOp op, uint first) { return vec3(op.a[first], op.a[first + 1u], op.a[first + 2u]); }
@@ -85,8 +87,11 @@ FN vec3 displaceStep(DeformOp op, vec3 p, vec3 n) {
 }
 FN vec3 functionStep(DeformOp op, vec3 p) { return runFunction(op.normals, op.row, p, axisOf(op, 0u)); }
 FN uint instancesOf(DeformOp op) { return op.kind == kDeformInstance ? op.points.count : 1u; }
-// Where instance i has what lies at p: y is upwards there.
-FN vec3 instanceStep(DeformOp op, vec3 p, uint i) {
+// Where an instance has what lies at p: y is upwards there. Its size and turn follow from the place, so they stay when
+// other places go.
+FN vec3 instanceStep(DeformOp op, vec3 p, uint instance) {
+    uint i = instance;
+    if (IS_GIVEN(op.which)) i = op.which.v[instance];
     uint at = i / op.used * op.row + i % op.used;
     vec3 up = vec3(0.0f, 1.0f, 0.0f);
     if (IS_GIVEN(op.normals)) up = unpackOct(op.normals.v[at]);
@@ -125,11 +130,16 @@ FN vec3 deformStep(DeformOp op, vec3 p, vec3 n, INOUT(uint) instance) {
 struct DeformArgs {
     NodePlanes from, to;
     UintBuf normals;     // of from; null: it has none, and what asks for them gets (0, 1, 0)
+    UintBuf toNormals;   // those as the program leaves them; null: nobody needs them
     DeformOpBuf ops;
     uint opCount;
     uint each;           // elements from one instance to the next: whole rows
+    float step;          // metres from a place to others, by which normals are found
+    float perStep;       // 1 / step
+    uint headings;       // 1: normals are where points are heading, and move along; 0: they stand upon a surface
+    uint spare;
 };
-STATIC_SIZE(DeformArgs, 56);
+STATIC_SIZE(DeformArgs, 80);
 
 FN vec3 startNormal(UintBuf normals, uint i) {
     vec3 n = vec3(0.0f, 1.0f, 0.0f);
@@ -143,6 +153,29 @@ FN void deformElement(DeformArgs a, uint i) {
     vec3 n = startNormal(a.normals, own);
     for (uint k = 0u; k < a.opCount; ++k) p = deformStep(a.ops.v[k], p, n, instance);
     putVector(a.to, i, p);
+}
+// Two steps along the surface are moved, too: they tell where its outside has turned. Of a heading the place ahead is. One
+// loop for both steps, so that a kernel has the program's text once more and not twice.
+FN void deformNormal(DeformArgs a, uint i) {
+    uint own = i % a.each;
+    vec3 n = startNormal(a.normals, own);
+    vec3 across = unit3(cross3(n, absolute(n.y) < 0.7f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f)));
+    bool heads = a.headings != 0u;
+    vec3 along = heads ? n : across;
+    vec3 first = n;
+    vec3 turned = n;
+    uint sides = heads ? 1u : 2u;
+    for (uint side = 0u; side < sides; ++side) {
+        uint instance = i / a.each;
+        vec3 p = takeVector(a.from, own) + along * a.step;
+        for (uint k = 0u; k < a.opCount; ++k) p = deformStep(a.ops.v[k], p, n, instance);
+        p = (p - takeVector(a.to, i)) * a.perStep;
+        turned = heads ? p : cross3(first, p);
+        first = p;
+        along = cross3(n, across);
+    }
+    float square = dot3(turned, turned);
+    a.toNormals.v[i] = packOct(square > 0.0f ? turned * rsqrtExact(square) : n);
 }
 
 ESPALIER_END

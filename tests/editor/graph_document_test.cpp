@@ -114,6 +114,43 @@ TEST_CASE("what can't be is refused with its reason, and the text stays") {
     CHECK(contains(state.failure, "'path' is missing"));
 }
 
+TEST_CASE("loops are wired, refused, renamed and undone like other nodes") {
+    const Folder folder;
+    Graphs editing(graphFile(folder, "graph 1\ngrid = PointGrid(counts: (5, 1, 1))\nc = Cube\nshow c\n"));
+    editing.done(AddNodes{0, "graph 1\nv = Variant\nt = Twist(c, angle: v.share)\nmany = Replicate(grid, t)\n"});
+    editing.done(ShowNodes{0, {"many"}});
+    const auto state = [&] {
+        EspNodeState state;
+        (void)editing.stats();
+        REQUIRE(espNodeStateOf(editing.context.get(), editing.graph().id, "many", nullptr, &state) == ESP_OK);
+        return state;
+    };
+    CHECK(contains(state().failure, "'each' is missing: Replicate needs a wire to Variant"));
+    editing.refused(ConnectNodes{0, "many", "each", "c"}, "'each' takes a wire to Variant, but 'c' is Cube");
+    editing.refused(SetNodeInput{0, "many", "each", "0"}, "'each' takes a wire to Variant");
+    editing.done(ConnectNodes{0, "many", "each", "v"});
+    editing.done(SetNodeInput{0, "many", "variants", "0"});
+    CHECK(state().instances == 5);
+    CHECK(state().parts == 5);
+    CHECK(std::string(state().note) == "");
+    editing.refused(ConnectNodes{0, "c", "size", "many"}, "");
+    editing.done(RenameNode{0, "v", "kind"});
+    CHECK(contains(editing.text(), "many = Replicate(grid, t, each: kind, variants: 0)"));
+    CHECK(contains(editing.text(), "angle: kind.share"));
+    editing.done(SetNodeInput{0, "many", "most", "3"});
+    CHECK(state().instances == 3);
+    CHECK(std::string(state().note) == "3 of 5 instances");
+    for (int i = 0; i < 4; ++i) editing.done(Undo{});
+    CHECK(contains(editing.text(), "many = Replicate(grid, t)\n"));
+    CHECK(state().made == 1);  // as it was last
+    for (int i = 0; i < 4; ++i) editing.done(Redo{});
+    CHECK(state().instances == 3);
+    const NodeKind* kind = findNodeKind("Replicate");
+    REQUIRE(kind);
+    CHECK(kind->inputs[size_t(kind->input("each"))].opener == "Variant");
+    CHECK(kind->inputs[0].opener.empty());
+}
+
 TEST_CASE("moving a node evaluates nothing, another node that is shown only what wasn't made") {
     const Folder folder;
     Graphs editing(graphFile(folder));

@@ -18,11 +18,15 @@ bool isSmall(const CheckedGraph& graph) {
         const auto readsTime = [&](const CheckedGraph::Wire& wire) { return int(wire.port) == time; };
         if (time >= 0 && (std::ranges::any_of(node.wires, readsTime) || node.constants[size_t(time)].numbers.x >= 1))
             return false;
-        for (const Literal& constant : node.constants)
+        // A limit of instances may be high: there are few without it.
+        const int limit = node.kind ? node.kind->port("most") : -1;
+        for (size_t p = 0; p < node.constants.size(); ++p)
             for (int i = 0; i < 3; ++i)
-                if (constant.kind != Literal::Kind::text && constant.numbers[i] > kMost) return false;
+                if (int(p) != limit && node.constants[p].kind != Literal::Kind::text &&
+                    node.constants[p].numbers[i] > kMost)
+                    return false;
     }
-    return true;
+    return graph.loops.size() < 2;  // passes of loops in each other are many
 }
 
 }  // namespace

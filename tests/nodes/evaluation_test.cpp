@@ -110,16 +110,6 @@ TEST_CASE("inputs are refused as a text's would be") {
     CHECK(geometryOf(e, "a").front().indexCount == 36);
 }
 
-TEST_CASE("instances are counted before anything is made, and limited") {
-    NodeEvaluation e = evaluationOf(
-        "graph 1\ngrid = PointGrid(counts: (1000, 1, 1000))\ncube = Cube\nmany = Scatter(grid, cube)\n"
-        "pair = PointGrid(counts: (2, 1, 1))\nmore = Scatter(pair, many)\nshow more many\n");
-    REQUIRE(e.failures().size() == 1);
-    CHECK(e.failures().front().message == "2000000 instances are more than 1,000,000; scatter over fewer points");
-    REQUIRE(e.shown().size() == 1);
-    CHECK(e.shown().front().instances() == 1000000);
-}
-
 TEST_CASE("boxes hold what stands") {
     NodeEvaluation e = evaluationOf(
         "graph 1\ngrid = PointGrid(counts: (3, 1, 3), step: (2, 2, 2))\nball = Sphere(radius: 0.5)\n"

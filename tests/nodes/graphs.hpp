@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <string>
 
 #include "runtime/core/file.hpp"
@@ -68,6 +69,31 @@ inline uint64_t hashOf(NodeEvaluation& evaluation) {
         add(*evaluation.corners(part));
     }
     return hash;
+}
+
+// The machine of tests, with the room that is asked of it.
+class CountingMachine : public NodeMachine {
+  public:
+    explicit CountingMachine(uint64_t& bytes) : bytes_(bytes), inner_(hostMachine(1)) {}
+    Result<BlockRef> allocate(const char* name, uint64_t bytes) override {
+        bytes_ += bytes;
+        return inner_->allocate(name, bytes);
+    }
+    Status run(NodeWorkList list) override { return inner_->run(std::move(list)); }
+    Result<std::vector<std::byte>> read(const NodeBlock& block, uint64_t bytes) override {
+        return inner_->read(block, bytes);
+    }
+
+  private:
+    uint64_t& bytes_;
+    std::unique_ptr<NodeMachine> inner_;
+};
+
+template <class Work>
+double secondsOf(const Work& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
 }  // namespace espalier::nodetest

@@ -16,7 +16,7 @@ bool has(const std::string& text, const char* part) {
 std::string everyKind() {
     std::string text =
         "graph 1\npoints0 = PointGrid\ncurves0 = Circle\nmesh0 = Cube\nmaterial0 = Material\n"
-        "rules0 = Grammar\nground0 = Bake(mesh0)\n";
+        "rules0 = Grammar\nground0 = Bake(mesh0)\nVariant0 = Variant\nPass0 = Pass(mesh0)\n";
     for (const NodeKind& kind : nodeKinds()) {
         text += "n" + kind.name + " = " + kind.name;
         std::string inputs;
@@ -28,6 +28,10 @@ std::string everyKind() {
                 inputs += "(" + numberText(v.x) + ", " + numberText(v.y) + ", " + numberText(v.z) + ")";
             if (port.standard.kind == Literal::Kind::text) inputs += "\"" + port.standard.text + "\"";
             if (port.standard.kind != Literal::Kind::none) continue;
+            if (*port.opener) {
+                inputs += std::string(port.opener) + "0";
+                continue;
+            }
             inputs += port.type == ValueType::points     ? "points0"
                       : port.type == ValueType::curves   ? "curves0"
                       : port.type == ValueType::material ? "material0"

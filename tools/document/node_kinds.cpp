@@ -12,6 +12,7 @@ NodePort portOf(const EspNodePort& info) {
                   info.low,  info.high, {},        {}};
     std::copy(std::begin(info.standard), std::end(info.standard), port.standard.begin());
     if (info.text) port.text = info.text;
+    if (info.opener) port.opener = info.opener;
     return port;
 }
 

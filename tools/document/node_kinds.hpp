@@ -18,6 +18,7 @@ struct NodePort {
     float low = 0, high = 0;
     std::array<float, 3> standard{};
     std::string text;
+    std::string opener = {};  // "": it takes wires to nodes of any kind
     std::vector<std::string> words = {};
 };
 struct NodeKind {
