@@ -141,6 +141,11 @@ ESPALIER_LANES void displaceLanes(const DeformOp& given, DeformLanes& l) {
 void functionLanes(const DeformOp& op, DeformLanes& l) {
     for (uint32_t lane = 0; lane < kNodeLanes; ++lane) put(l.at, lane, functionStep(op, vectorOf(l.at, lane)));
 }
+// It reads texels here and there.
+void pictureLanes(const DeformOp& op, DeformLanes& l) {
+    for (uint32_t lane = 0; lane < kNodeLanes; ++lane)
+        put(l.at, lane, pictureStep(op, vectorOf(l.at, lane), vectorOf(l.normal, lane)));
+}
 // All lanes belong to one instance.
 void instanceLanes(const DeformOp& op, uint32_t i, DeformLanes& l) {
     for (uint32_t lane = 0; lane < kNodeLanes; ++lane) put(l.at, lane, instanceStep(op, vectorOf(l.at, lane), i));
@@ -148,7 +153,8 @@ void instanceLanes(const DeformOp& op, uint32_t i, DeformLanes& l) {
 
 // By DeformOp::kind; instances are a case of their own.
 constexpr void (*kDeformSteps[])(const DeformOp&, DeformLanes&) = {
-    moveLanes, spherifyLanes, twistLanes, bendLanes, noiseLanes, waveLanes, displaceLanes, nullptr, functionLanes};
+    moveLanes, spherifyLanes, twistLanes, bendLanes,     noiseLanes,
+    waveLanes, displaceLanes, nullptr,    functionLanes, pictureLanes};
 
 void deformBlock(const DeformArgs& a, uint32_t first) {
     DeformLanes l;

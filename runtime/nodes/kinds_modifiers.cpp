@@ -1,12 +1,15 @@
 // Modifiers: each appends a step to the program that geometry carries. Nothing is copied, and what is scattered stays
 // so.
+#include "runtime/core/hash.hpp"
 #include "runtime/nodes/function_text.hpp"
 #include "runtime/nodes/node_work.hpp"
+#include "runtime/surface/picture.hpp"
 
 namespace espalier {
 namespace {
 
 constexpr float kFar = 1e6f;  // metres
+constexpr uint32_t kMostPictureSide = 4096;
 
 NodePort geometryPort() {
     return wirePort("geometry", ValueType::geometry, "what it acts on");
@@ -102,8 +105,42 @@ Status makeNoise(NodeWork& work, uint32_t kind) {
 Status makeNoise(NodeWork& work) {
     return makeNoise(work, kDeformNoise);
 }
+
+// The grey of a picture that was decoded last, and where its texels lie.
+struct KeptPicture : NodeMemory {
+    uint64_t file = 0;  // hash of its bytes
+    BlockRef texels;
+    uint32_t width = 0, height = 0;
+};
 Status makeDisplace(NodeWork& work) {
-    return makeNoise(work, kDeformDisplace);
+    if (work.text("picture").empty()) return makeNoise(work, kDeformDisplace);
+    Result<NodeFile> file = work.file("picture");
+    if (!file) return file.failure();
+    const uint64_t hash = hashBytes(file->bytes, 0);
+    std::unique_ptr<KeptPicture> kept = work.takeMemory<KeptPicture>();
+    if (!kept || kept->file != hash) {
+        kept = std::make_unique<KeptPicture>();
+        Result<UvPicture> grey = decodeGrey(file->bytes, work.text("picture"), kMostPictureSide);
+        if (!grey) return Failure("", grey.failure().text());
+        Result<NodeWork::Room> sent = work.sent("picture", grey->texels);
+        if (!sent) return sent.failure();
+        kept->file = hash;
+        kept->texels = sent->block;
+        kept->width = grey->width;
+        kept->height = grey->height;
+    }
+    DeformOp op = opOf(kDeformPicture);
+    op.sizes = kept->texels->as<FloatBuf>();
+    op.row = kept->width;
+    op.used = kept->height;
+    op.a[0] = work.number("amount");
+    op.a[1] = work.number("level");
+    op.a[2] = work.number("scale");
+    put(op, 3, work.vector("offset"));
+    const BlockRef texels = kept->texels;
+    if (Status appended = append(work, op, texels); !appended) return appended;
+    work.keep(std::move(kept));
+    return Done{};
 }
 Status makeWave(NodeWork& work) {
     DeformOp op = opOf(kDeformWave);
@@ -172,6 +209,15 @@ std::vector<NodeKind> modifierKinds() {
                         make,
                         {"nodes/deform.comp"}};
     };
+    NodeKind displace =
+        noise("Displace",
+              "Moves each vertex of a mesh along its normal, by smooth noise or by the grey of a picture. "
+              "A picture repeats, and lies over the mesh from three sides.",
+              makeDisplace);
+    displace.inputs.push_back(
+        {"picture", ValueType::file, "", 0, 0, "",
+         "instead of noise: a PNG or JPEG beside the graph's own file; with it a feature is a picture"});
+    displace.inputs.push_back(numberPort("level", 0.5f, 0, 1, "", "of a picture: the grey that moves nothing"));
     NodePort parts = wirePort("parts", ValueType::geometry, "wires to all that is joined");
     parts.many = parts.optional = true;
     NodePort choices = wirePort("choices", ValueType::geometry, "wires to what is chosen from");
@@ -208,7 +254,7 @@ std::vector<NodeKind> modifierKinds() {
          makeBend,
          {"nodes/deform.comp"}},
         noise("Noise", "Moves each place by smooth noise, in all directions.", makeNoise),
-        noise("Displace", "Moves each vertex of a mesh along its normal by smooth noise.", makeDisplace),
+        displace,
         {"Wave",
          "Moves places in one direction by a wave that travels in another.",
          {geometryPort(), amount(0.1f, "its height"),

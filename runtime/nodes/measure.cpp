@@ -17,27 +17,29 @@ class Measuring {
     explicit Measuring(NodeMachine& machine) : machine_(machine) {}
 
     Result<std::vector<NodeBox>> run(const Geometry& parts) {
-        // Two boxes a part: of the shape, and of all.
-        Result<BlockRef> boxes = machine_.allocate("bounds", parts.size() * 2 * kBoxWords * 4);
+        // Of each part a box of the shape, and one for each group of its instances.
+        std::vector<size_t> last;
+        size_t count = 0;
+        for (const GeometryPart& part : parts) last.push_back((count += 1 + groupsOf(part).size()) - 1);
+        Result<BlockRef> boxes = machine_.allocate("bounds", count * kBoxWords * 4);
         if (!boxes) return boxes.failure();
         const uint32_t low = 0xFFFFFFFF, none[kBoxWords] = {low, low, low, 0, 0, 0};
         std::vector<std::byte> empty;
-        for (size_t i = 0; i < parts.size() * 2; ++i) {
+        for (size_t i = 0; i < count; ++i) {
             const auto bytes = std::as_bytes(std::span(none));
             empty.insert(empty.end(), bytes.begin(), bytes.end());
         }
         list_.uploads.push_back({*boxes, std::move(empty)});
         for (size_t i = 0; i < parts.size(); ++i)
-            if (Status added = add(parts[i], (*boxes)->as<UintBuf>().v + i * 2 * kBoxWords); !added)
+            if (Status added = add(parts[i], (*boxes)->as<UintBuf>().v + (i ? last[i - 1] + 1 : 0) * kBoxWords); !added)
                 return added.failure();
         if (Status ran = machine_.run(std::move(list_)); !ran) return ran.failure();
-        Result<std::vector<std::byte>> bytes = machine_.read(**boxes, parts.size() * 2 * kBoxWords * 4);
+        Result<std::vector<std::byte>> bytes = machine_.read(**boxes, count * kBoxWords * 4);
         if (!bytes) return bytes.failure();
         std::vector<NodeBox> out(parts.size());
         for (size_t i = 0; i < parts.size(); ++i) {
             uint32_t words[kBoxWords];
-            const size_t box = 2 * i + (instanced(parts[i]) ? 1 : 0);
-            std::memcpy(words, bytes->data() + box * sizeof words, sizeof words);
+            std::memcpy(words, bytes->data() + last[i] * sizeof words, sizeof words);
             for (int k = 0; k < 3; ++k) {
                 out[i].low[k] = floatOfOrdered(words[k]);
                 out[i].high[k] = floatOfOrdered(words[3 + k]);
@@ -47,8 +49,16 @@ class Measuring {
     }
 
   private:
-    static bool instanced(const GeometryPart& part) {
-        return std::ranges::any_of(part.program, [](const DeformOp& op) { return op.kind == kDeformInstance; });
+    // Steps of a program whose instances are looked at together, by the first of each group. Of very many instances
+    // each step is a group: the boxes of what it places are placed as a whole, which takes a sum of steps and no
+    // product.
+    static std::vector<uint32_t> groupsOf(const GeometryPart& part) {
+        constexpr uint64_t kFew = 65536;
+        std::vector<uint32_t> groups;
+        for (uint32_t k = 0; k < part.program.size(); ++k)
+            if (part.program[k].kind == kDeformInstance && (groups.empty() || part.instances() > kFew))
+                groups.push_back(k);
+        return groups;
     }
 
     Status add(const GeometryPart& part, uint32_t* boxes) {
@@ -62,20 +72,26 @@ class Measuring {
             list_.uploads.push_back({*ops, {bytes.begin(), bytes.end()}});
             args.ops = (*ops)->as<DeformOpBuf>();
         }
-        const auto first = std::ranges::find(part.program, kDeformInstance, &DeformOp::kind);
-        args.endOp = uint32_t(first - part.program.begin());
+        const std::vector<uint32_t> groups = groupsOf(part);
+        const auto endOf = [&](size_t group) {
+            return group < groups.size() ? groups[group] : uint32_t(part.program.size());
+        };
+        args.endOp = endOf(0);
         args.row = part.row;
         args.used = part.used;
         args.items = part.elements;
         args.box.v = boxes;
         run(args);
-        if (first == part.program.end()) return Done{};
-        args.shape.v = boxes;
-        args.box.v = boxes + kBoxWords;
-        args.firstOp = args.endOp;
-        args.endOp = uint32_t(part.program.size());
-        args.items = uint32_t(part.instances() * 8);
-        run(args);
+        for (size_t group = 0; group < groups.size(); ++group) {
+            args.shape.v = boxes + group * kBoxWords;
+            args.box.v = boxes + (group + 1) * kBoxWords;
+            args.firstOp = endOf(group);
+            args.endOp = endOf(group + 1);
+            uint64_t instances = 1;
+            for (uint32_t k = args.firstOp; k < args.endOp; ++k) instances *= instancesOf(part.program[k]);
+            args.items = uint32_t(instances * 8);
+            run(args);
+        }
         return Done{};
     }
 

@@ -18,8 +18,10 @@ Result<NodeFile> readBeside(const Files& files, const std::string& graph, const 
 // Failures and notes that are new.
 void tellFailures(EspContext& context, LoadedGraph& graph) {
     std::vector<Diagnostic> all = failuresOf(graph);
-    const std::vector<Diagnostic> notes = graph.evaluation->notes();
-    all.insert(all.end(), notes.begin(), notes.end());
+    for (Diagnostic note : graph.evaluation->notes()) {
+        note.warning = false;  // the log says that it is one
+        all.push_back(std::move(note));
+    }
     const std::string now = all.empty() ? std::string() : toString(all);
     if (now != graph.told && !now.empty()) context.log(Severity::warning, now);
     graph.told = now;

@@ -18,6 +18,8 @@ CONST_UINT(kDeformInstance, 7u);   // points: places; if given, normals: upwards
                                    // which: the place that each instance stands at; a: size, spread of sizes, of
                                    // turns; seed
 CONST_UINT(kDeformFunction, 8u);   // code: normals, of `row` words; a: its inputs a, b, c
+CONST_UINT(kDeformPicture, 9u);    // sizes: a picture's grey of 0 to 1, `used` rows of `row` texels from the top on;
+                                   // a: metres of white, grey that stays, pictures a metre, offset
 CONST_UINT(kMostDeforms, 64u);     // steps of a program
 
 struct DeformOp {
@@ -85,6 +87,30 @@ FN vec3 waveStep(DeformOp op, vec3 p) {
 FN vec3 displaceStep(DeformOp op, vec3 p, vec3 n) {
     return p + n * (op.a[0] * latticeNoise(op.seed, p * op.a[1] + axisOf(op, 2u)));
 }
+// The grey at a place of a picture that repeats: u to the right and v upwards, in pictures.
+FN float pictureAt(DeformOp op, float u, float v) {
+    float s = within(u, 1e6f);
+    float t = 0.0f - within(v, 1e6f);
+    float x = (s - floorExact(s)) * float(int(op.row)) - 0.5f;
+    float y = (t - floorExact(t)) * float(int(op.used)) - 0.5f;
+    float fx = floorExact(x);
+    float fy = floorExact(y);
+    uint left = fx < 0.0f ? op.row - 1u : uint(int(fx));
+    uint over = fy < 0.0f ? op.used - 1u : uint(int(fy));
+    uint right = left + 1u >= op.row ? 0u : left + 1u;
+    uint under = over + 1u >= op.used ? 0u : over + 1u;
+    float a = op.sizes.v[over * op.row + left];
+    float b = op.sizes.v[under * op.row + left];
+    a = a + (op.sizes.v[over * op.row + right] - a) * (x - fx);
+    b = b + (op.sizes.v[under * op.row + right] - b) * (x - fx);
+    return a + (b - a) * (y - fy);
+}
+// The picture lies over the surface from three sides, each the more the more the surface faces it.
+FN vec3 pictureStep(DeformOp op, vec3 p, vec3 n) {
+    vec3 q = p * op.a[2] + axisOf(op, 3u);
+    float grey = n.x * n.x * pictureAt(op, q.z, q.y) + n.y * n.y * pictureAt(op, q.x, q.z) + n.z * n.z * pictureAt(op, q.x, q.y);
+    return p + n * (op.a[0] * (grey - op.a[1]));
+}
 FN vec3 functionStep(DeformOp op, vec3 p) { return runFunction(op.normals, op.row, p, axisOf(op, 0u)); }
 FN uint instancesOf(DeformOp op) { return op.kind == kDeformInstance ? op.points.count : 1u; }
 // Where an instance has what lies at p: y is upwards there. Its size and turn follow from the place, so they stay when
@@ -121,6 +147,7 @@ FN vec3 deformStep(DeformOp op, vec3 p, vec3 n, INOUT(uint) instance) {
     if (op.kind == kDeformWave) return waveStep(op, p);
     if (op.kind == kDeformDisplace) return displaceStep(op, p, n);
     if (op.kind == kDeformFunction) return functionStep(op, p);
+    if (op.kind == kDeformPicture) return pictureStep(op, p, n);
     uint i = instance % op.points.count;
     instance = instance / op.points.count;
     return instanceStep(op, p, i);

@@ -12,13 +12,31 @@ struct GraphPicture {
     const char* name;
     int frame;
 };
-constexpr GraphPicture kGraphPictures[] = {
-    {"bent_tower", 0},     {"brush_strokes", 0},  {"cube_clouds", 0},        {"noise_in_fluid", 34},
-    {"fluid_dam", 34},     {"glass_tubes", 0},    {"ivy_pergola", 0},        {"nautilus", 0},
-    {"pergola", 0},        {"planet", 100},       {"spherified_car", 0},     {"twisted_all", 0},
-    {"twisted_cubes", 0},  {"twisted_points", 0}, {"twisted_tree", 0},       {"urchins", 60},
-    {"varied_grove", 0},   {"vaulted_hall", 0},   {"wave_shells", 20},       {"waved_cube", 20},
-    {"weathered_town", 0}, {"woven_sphere", 300}, {"woven_sphere_low", 300}, {"woven_sphere_medium", 300}};
+constexpr GraphPicture kGraphPictures[] = {{"bent_tower", 0},
+                                           {"brush_strokes", 0},
+                                           {"cube_clouds", 0},
+                                           {"noise_in_fluid", 34},
+                                           {"fluid_dam", 34},
+                                           {"glass_tubes", 0},
+                                           {"ivy_pergola", 0},
+                                           {"nautilus", 0},
+                                           {"pergola", 0},
+                                           {"planet", 100},
+                                           {"rippled_sphere", 40},
+                                           {"spherified_car", 0},
+                                           {"twisted_all", 0},
+                                           {"twisted_cubes", 0},
+                                           {"twisted_points", 0},
+                                           {"twisted_tree", 0},
+                                           {"urchins", 60},
+                                           {"varied_grove", 0},
+                                           {"vaulted_hall", 0},
+                                           {"wave_shells", 20},
+                                           {"waved_cube", 20},
+                                           {"weathered_town", 0},
+                                           {"woven_sphere", 300},
+                                           {"woven_sphere_low", 300},
+                                           {"woven_sphere_medium", 300}};
 
 std::string captureOf(const GraphPicture& graph, const std::string& folder, const std::string& more = "") {
     return program("espalier-capture") + " content/graphs/" + graph.name + ".graph --size 480x270 --still --frame " +

@@ -1,5 +1,6 @@
 // How many instances there are at most, and which of them stand.
 #include <algorithm>
+#include <glm/vector_relational.hpp>
 #include <tuple>
 
 #include "tests/nodes/graphs.hpp"
@@ -132,4 +133,20 @@ TEST_CASE("five scatters of 1,000 in each other answer at once") {
     CHECK(instancesOf(e.shown()) == 1000000);
     CHECK(noteOf(e, "s2") == "");
     CHECK(noteOf(e, "s5") == "1,000,000 of 1,000,000,000 instances");
+    // A box around them all takes no longer, and holds what stands.
+    const Geometry parts = e.shown();
+    REQUIRE(parts.size() == 1);
+    Result<std::vector<NodeBox>> boxes = std::vector<NodeBox>();
+    CHECK(secondsOf([&] { boxes = e.measure(parts); }) < 0.05);
+    REQUIRE(boxes);
+    const NodeBox box = boxes->front();
+    for (uint32_t i = 0; i < 1000000; i += 997)
+        for (const float side : {-0.5f, 0.5f}) {
+            uint32_t instance = i;
+            glm::vec3 p(side, 0.5f, side);
+            for (const DeformOp& op : parts.front().program) p = deformStep(op, p, {0, 1, 0}, instance);
+            CHECK(glm::all(glm::greaterThanEqual(p, box.low)));
+            CHECK(glm::all(glm::lessThanEqual(p, box.high)));
+        }
+    CHECK(glm::length(box.high - box.low) < 150);
 }
