@@ -37,6 +37,9 @@ std::string lower(std::string text) {
 // Nodes of the kind can be wired to the port that was dragged.
 bool fitsPort(const GraphDesk& desk, const NodeKind& kind) {
     if (!desk.list.port) return true;
+    const NodeCanvas::Box& box = desk.canvas.boxes[desk.list.port->node];
+    if (!desk.list.port->output && box.kind && !box.kind->inputs[desk.list.port->index].opener.empty())
+        return kind.name == box.kind->inputs[desk.list.port->index].opener;
     const auto type = desk.typeOf(*desk.list.port);
     if (!type) return true;
     if (desk.list.port->output)
