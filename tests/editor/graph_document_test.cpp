@@ -120,10 +120,10 @@ TEST_CASE("loops are wired, refused, renamed and undone like other nodes") {
     editing.done(AddNodes{0, "graph 1\nv = Variant\nt = Twist(c, angle: v.share)\nmany = Replicate(grid, t)\n"});
     editing.done(ShowNodes{0, {"many"}});
     const auto state = [&] {
-        EspNodeState state;
+        EspNodeState now;
         (void)editing.stats();
-        REQUIRE(espNodeStateOf(editing.context.get(), editing.graph().id, "many", nullptr, &state) == ESP_OK);
-        return state;
+        REQUIRE(espNodeStateOf(editing.context.get(), editing.graph().id, "many", nullptr, &now) == ESP_OK);
+        return now;
     };
     CHECK(contains(state().failure, "'each' is missing: Replicate needs a wire to Variant"));
     editing.refused(ConnectNodes{0, "many", "each", "c"}, "'each' takes a wire to Variant, but 'c' is Cube");
