@@ -181,8 +181,8 @@ ESP_API const char* espDriverName(const EspContext* context);     /* with its ve
 
 /* ---- Surfaces ----------------------------------------------------------------------------------------------- */
 
-/* Rows of a 3×4 object-to-world matrix. Its scale must be even in all directions, 1e-6 to 1e6, and mirror nothing;
- * it moves by up to 1e9 m along each axis. */
+/* Rows of a 3×4 object-to-world matrix. Its scale must be even in all directions, 1e-6 to 1e6; it may mirror, and
+ * moves by up to 1e9 m along each axis. */
 typedef struct EspTransform { float rows[3][4]; } EspTransform;
 ESP_API EspTransform espIdentity(void);
 
@@ -201,7 +201,7 @@ typedef struct EspSurfaceInfo {
 /* Loads what espalier-bake wrote and places it. Where it touches other surfaces or runs into them, plants go over from
  * one to the other. What lies within another surface's solid body is no ground until one of them is elsewhere: nothing
  * grows there, and seeds there wait. In the next espUpdate only plants grow again that can get to it from where they
- * stand. place: NULL is the identity. At most 4,095 surfaces a context. */
+ * stand. place: NULL is the identity. At most 65,535 surfaces a context. */
 ESP_API EspResult espLoadSurface(EspContext* context, const char* path, const EspTransform* place, EspSurface* out);
 /* Likewise, of ground that something else draws, such as the walls of a town's houses: of it only ESP_VIEW_CHARTS and
  * ESP_VIEW_LAYER show anything, and it casts no shadow. */
@@ -216,6 +216,10 @@ typedef struct EspSurfaceDef {
 } EspSurfaceDef;
 /* espLoadSurface and espLoadGround, from memory too. */
 ESP_API EspResult espAddSurface(EspContext* context, const EspSurfaceDef* def, EspSurface* out);
+/* Puts a surface that stands at another place, too: another surface, with seeds and layers of its own, which shares what
+ * was read and uploaded of `like` as long as one of the two is there. Only what other surfaces touch costs memory for each
+ * place, and what is painted. `groundOnly` is that of `like`; fields aren't taken along. */
+ESP_API EspResult espPlaceAgain(EspContext* context, EspSurface like, const EspTransform* place, EspSurface* out);
 /* Puts a surface elsewhere, with its seeds and layers. In the next espUpdate contacts with other surfaces are found anew,
  * and plants grow again that can get to it from where they stand; others are left alone. Of a surface that touches no
  * other, neither before nor after, plants go along as they are, if it keeps its scale to the last bit (moves do, and

@@ -190,6 +190,11 @@ class Context {
         EspSurface surface{};
         return owned<Surface>(espLoadSurface(get(), path, place, &surface), surface);
     }
+    /* A surface at another place, too: see espPlaceAgain. */
+    Result<Surface> placeAgain(EspSurface like, const EspTransform& place) {
+        EspSurface surface{};
+        return owned<Surface>(espPlaceAgain(get(), like, &place, &surface), surface);
+    }
     Result<Grammar> compile(const EspGrammarDef& def) {
         EspGrammar grammar{};
         return owned<Grammar>(espCompileGrammar(get(), &def, &grammar), grammar);

@@ -63,7 +63,8 @@ bool addSurface(Workspace& work, const std::string& file, const std::string& cal
     if (espSurfaceInfo(work.context.get(), work.scene().surfaces[index].id, &info) != ESP_OK) return false;
     const Box model{vec(info.boundsMin), vec(info.boundsMax)};
     const Placing place = placeOf(model, first ? std::nullopt : std::optional(Box{low, high}), work.scene().look);
-    if (place != Placing{}) work.perform(PlaceSurface{index, place.position, place.turn, place.scale}, gesture);
+    if (place != Placing{})
+        work.perform(PlaceSurface{index, place.position, place.turn, place.scale, place.mirror}, gesture);
     if (first) {
         fitPlants(work, {place.scale * model.low, place.scale * model.high}, gesture);
         work.fitBrush();

@@ -32,7 +32,7 @@ void sameLine() {
 
 void placePanel(Workspace& work, uint32_t index) {
     const espalier::scene::Placing& now = work.scene().surfaces[index].placing;
-    PlaceSurface place{index, now.position, now.turn, now.scale};
+    PlaceSurface place{index, now.position, now.turn, now.scale, now.mirror};
     const float reach = std::max(kLeastReach, 2 * work.reach());
     const char* const axes[] = {"Right", "Up", "Front"};
     bool changed = false;
@@ -50,6 +50,8 @@ void placePanel(Workspace& work, uint32_t index) {
     slid(labelledSlider("Size", &place.scale, std::min(kSmallest, now.scale), std::max(kLargest, now.scale), "%.3g",
                         true));
     toolTip("Times the size in the model's file");
+    if (ImGui::Checkbox("Mirrored", &place.mirror)) gesture = work.newGesture(), changed = true;
+    toolTip("Left becomes right: a second look for the same model");
     if (changed) work.perform(place, gesture);
 }
 

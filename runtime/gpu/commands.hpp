@@ -168,6 +168,8 @@ class DrawPass : public Pass {
     void drawBacks(bool drawn);
     // The view is seen in a mirror, or isn't: at first it isn't.
     void mirror(bool mirrored);
+    // What is drawn next is placed mirrored, or isn't: likewise.
+    void mirrorPlaced(bool mirrored);
     // For programs with GraphicsDesc::inputs.
     void setVertices(const Buffer& vertices, uint64_t offset = 0);
     void setIndices(const Buffer& indices, VkIndexType type = VK_INDEX_TYPE_UINT32, uint64_t offset = 0);
@@ -187,7 +189,8 @@ class DrawPass : public Pass {
                              Push push = {}, Bindings bindings = {});
 
   private:
-    bool begun_ = false;  // by us
+    bool begun_ = false;     // by us
+    bool mirrored_ = false;  // the view
 };
 
 }  // namespace espalier

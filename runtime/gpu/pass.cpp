@@ -149,7 +149,13 @@ void DrawPass::drawBacks(bool drawn) {
 }
 
 void DrawPass::mirror(bool mirrored) {
-    vk_.vkCmdSetFrontFace(cmd_, mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
+    mirrored_ = mirrored;
+    mirrorPlaced(false);
+}
+
+void DrawPass::mirrorPlaced(bool mirrored) {
+    const bool turned = mirrored != mirrored_;
+    vk_.vkCmdSetFrontFace(cmd_, turned ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
 }
 
 void DrawPass::setScissor(int32_t x, int32_t y, uint32_t width, uint32_t height) {

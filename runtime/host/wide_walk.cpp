@@ -127,11 +127,11 @@ bool leavesChart(WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
 }
 
 void readEnd(WideWalks& l, uint32_t i, SurfaceBuf surfaces) {
-    const Texel* texels = surfaces.v[l.instance[i]].levels[l.level[i]].texels.v;
-    put(l.texel00, l.bits00, i, texels[l.at00[i]]);
-    put(l.texel10, l.bits10, i, texels[l.at10[i]]);
-    put(l.texel01, l.bits01, i, texels[l.at01[i]]);
-    put(l.texel11, l.bits11, i, texels[l.at11[i]]);
+    const uint32_t instance = l.instance[i], level = l.level[i];
+    put(l.texel00, l.bits00, i, readTexel(surfaces, instance, level, l.at00[i]));
+    put(l.texel10, l.bits10, i, readTexel(surfaces, instance, level, l.at10[i]));
+    put(l.texel01, l.bits01, i, readTexel(surfaces, instance, level, l.at01[i]));
+    put(l.texel11, l.bits11, i, readTexel(surfaces, instance, level, l.at11[i]));
 }
 
 inline void blendEnds(WideWalks& l) {

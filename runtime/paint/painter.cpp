@@ -31,6 +31,7 @@ UintBuf wordsOf(const Buffer& buffer) {
 PaintEnv environment(const Canvas& canvas, uint64_t blocks, size_t count) {
     PaintEnv env{};
     env.texels = canvas.surface.levels[0].texels;
+    env.texelTiles = canvas.surface.levels[0].texelTiles;
     env.aux = canvas.surface.levels[0].aux;
     env.layer = at<FloatBuf, float>(canvas.layer->address());
     env.blocks = at<UintBuf, uint32_t>(blocks);
@@ -245,6 +246,7 @@ Status Painter::findPlaces(Commands& commands, const PaintJob& job, Placed& plac
     commands.barrier(Use::transfer, Use::compute);
     PlacesEnv env{};
     env.texels = job.canvas.surface.levels[0].texels;
+    env.texelTiles = job.canvas.surface.levels[0].texelTiles;
     env.blocks = at<UintBuf, uint32_t>(placed.fresh);
     env.places =
         at<UintBuf, uint32_t>((placed.places ? placed.places : record.places_).address() + known * kPlacesBytes);

@@ -21,7 +21,7 @@ EspResult readAtlas(EspContext& context, uint32_t id, uint32_t level, uint32_t* 
                         std::to_string(room));
     Result<std::vector<Texel>> texels = surface->gpu.readTexels(*context.device, level);
     if (!texels) return failGpu(&context, texels.failure());
-    const std::vector<Chart>& charts = surface->data.charts;
+    const std::vector<Chart>& charts = surface->content->data.charts;
     for (uint32_t y = 0; y < side; ++y)
         for (uint32_t x = 0; x < side; ++x) {
             const uint32_t bits = (*texels)[texelIndex(side, x, y)].bits, chart = texelChart(bits);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 
 #include "runtime/gpu/commands.hpp"
 #include "runtime/plugin/context.hpp"
@@ -312,7 +313,11 @@ EspStats gather(const EspContext& context) {
     stats.nodeBytes = growth.nodeBytes;
     stats.leafBytes = growth.leafBytes;
     stats.chunkBytes = growth.chunkBytes;
-    context.surfaces.forEach([&](uint32_t, const PlacedSurface& s) { stats.surfaceBytes += s.gpu.sizeBytes(); });
+    std::set<const SurfaceContent*> contents;
+    context.surfaces.forEach([&](uint32_t, const PlacedSurface& s) {
+        stats.surfaceBytes += s.gpu.ownBytes();
+        if (contents.insert(s.content.get()).second) stats.surfaceBytes += s.gpu.bakedBytes();
+    });
     for (const PaintedLayer& layer : context.layers) stats.layerBytes += layer.texels.size();
     stats.totalBytes = context.device->memory().bytesUsed();
     stats.reservedBytes = context.device->memory().bytesReserved();

@@ -29,7 +29,7 @@ bool isRead(const EspContext& context, uint32_t number, uint32_t without) {
 EspResult readLayer(EspContext& context, uint32_t surface, const char* name, float* texels, uint32_t* size) {
     const PlacedSurface* placed = context.surfaces.find(surface);
     if (!placed) return fail(&context, ESP_INVALID_ARGUMENT, "espReadLayer: no such surface");
-    const uint32_t side = placed->data.levels.front().size, room = *size;
+    const uint32_t side = placed->content->data.levels.front().size, room = *size;
     *size = side;
     if (!texels || room == 0) return ESP_OK;
     if (room < side)
@@ -98,7 +98,7 @@ void layerChanged(EspContext& context, uint32_t surface, const std::string& name
                   std::span<const uint64_t> texels) {
     if (blocks.empty() || !declaredFill(context, name)) return;
     const PlacedSurface& placed = *context.surfaces.find(surface);
-    const uint32_t size = placed.data.levels.front().size, side = size / 8;
+    const uint32_t size = placed.content->data.levels.front().size, side = size / 8;
     for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer) {
         if (context.sceneLayers[layer].name != name) continue;
         for (size_t i = 0; i < blocks.size(); ++i) {
@@ -122,7 +122,7 @@ void wholeLayerChanged(EspContext& context, uint32_t surface, const std::string&
     const PlacedSurface& placed = *context.surfaces.find(surface);
     for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
         if (context.sceneLayers[layer].name == name)
-            context.changes.markLayer(placed.instance, layer, placed.data.levels.front().size);
+            context.changes.markLayer(placed.instance, layer, placed.content->data.levels.front().size);
     context.nodes.paint.change();
 }
 

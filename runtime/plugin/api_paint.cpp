@@ -21,8 +21,8 @@ bool usable(const EspDab& dab) {
 }
 
 const BlockBounds& boundsOf(PlacedSurface& surface) {
-    if (!surface.blocks) surface.blocks = BlockBounds(surface.data.levels.front());
-    return surface.blocks;
+    if (!surface.content->blocks) surface.content->blocks = BlockBounds(surface.content->data.levels.front());
+    return surface.content->blocks;
 }
 
 // Where a dab lies in object space, and as far as it may reach there: the kernel, which measures in the world, rounds
@@ -45,7 +45,8 @@ std::vector<uint64_t> texelsWithin(const PlacedSurface& surface, std::span<const
                                    std::span<const Reached> dabs) {
     std::vector<uint64_t> within;
     for (uint32_t block : blocks) {
-        const std::span texels = std::span(surface.data.levels.front().texels).subspan(size_t(block) * kBlockTexels);
+        const std::span texels =
+            std::span(surface.content->data.levels.front().texels).subspan(size_t(block) * kBlockTexels);
         uint64_t& mask = within.emplace_back(0);
         for (uint32_t i = 0; i < kBlockTexels; ++i)
             for (const Reached& dab : dabs)
@@ -82,11 +83,11 @@ EspResult begin(EspContext& context, const EspBrush& brush, EspStroke* out) {
 // Metres that a texel of the surface covers, in the mean.
 float texelOf(const PlacedSurface& surface) {
     double metres = 0, area = 0;
-    for (const Chart& chart : surface.data.charts) {
+    for (const Chart& chart : surface.content->data.charts) {
         metres += double(chart.metresPerUv) * double(chart.area);
         area += chart.area;
     }
-    return float(metres / std::max(area, 1e-20)) * surface.scale / float(surface.data.levels.front().size);
+    return float(metres / std::max(area, 1e-20)) * surface.scale / float(surface.content->data.levels.front().size);
 }
 
 // Near borders smoothing walks, so it needs the table of surfaces; ways are a texel and a half long at least.
@@ -195,7 +196,7 @@ EspResult fillLayer(EspContext& context, const char* name, float value, EspStrok
     TouchedBlocks touched;
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
         if ((roofsOnly || readAs(context, name, value)) && !paintedLayer(context, id, name)) return;
-        touched.push_back({id, allBlocks(surface.data.levels.front().size)});
+        touched.push_back({id, allBlocks(surface.content->data.levels.front().size)});
     });
     std::vector<PaintJob> jobs;
     const float fill = declaredFill(context, name).value_or(0);
@@ -227,7 +228,7 @@ EspResult replaceLayer(EspContext& context, uint32_t surface, const std::string&
     if (EspResult bad = makePainter(context)) return bad;
     PaintStroke stroke;
     stroke.layer = name;
-    const uint32_t side = context.surfaces.find(surface)->data.levels.front().size;
+    const uint32_t side = context.surfaces.find(surface)->content->data.levels.front().size;
     std::vector<PaintJob> jobs;
     const float fill = declaredFill(context, name).value_or(0);
     Undo made([&] { withdraw(context, stroke); });

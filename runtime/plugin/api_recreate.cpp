@@ -89,7 +89,7 @@ EspResult restoreSurfaces(EspContext& context) {
     std::vector<uint32_t> ids;
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface&) { ids.push_back(id); });
     for (const uint32_t id : ids) {
-        const EspResult bad = standAgain(context, *context.surfaces.find(id));
+        const EspResult bad = standAgain(context, id);
         const bool ofFile = bad == ESP_IO_FAILED || bad == ESP_INVALID_CONTENT;
         if (ofFile && context.streaming && context.streaming->knows(id))
             context.streaming->loseFile(id, bad, std::exchange(context.error, {}));

@@ -50,8 +50,8 @@ EspResult setLayer(EspContext& context, const EspLayerDef& def) {
         PaintedLayer layer;
         layer.name = def.name;
         layer.surface = def.surface.id;
-        layer.size = surface.data.levels.front().size;
-        layer.kept = laidOut(context, surface.data, def);
+        layer.size = surface.content->data.levels.front().size;
+        layer.kept = laidOut(context, surface.content->data, def);
         layer.number = context.layersMade + 1;
         Result<Buffer> texels = makeBuffer(*context.device, "layer", layer.kept);
         if (!texels) return failGpu(&context, texels.failure());
@@ -75,7 +75,7 @@ EspResult checkLayer(const EspContext& context, const EspLayerDef& def) {
     if (!isAmong(def.space, ESP_LAYER_WALK_UV, ESP_LAYER_TEXELS))
         return fail(&context, ESP_INVALID_ARGUMENT, "espSetLayer: no such UV set");
     if (!def.texels) return ESP_OK;
-    const uint32_t side = surface->data.levels.front().size;
+    const uint32_t side = surface->content->data.levels.front().size;
     const bool exact = def.space == ESP_LAYER_TEXELS;
     if (exact ? def.width != side || def.height != side
               : def.width < 1 || def.height < 1 || def.width > kMaxLayerSide || def.height > kMaxLayerSide)
@@ -88,7 +88,7 @@ EspResult checkLayer(const EspContext& context, const EspLayerDef& def) {
 
 EspResult importLayer(EspContext& context, const EspLayerDef& def, EspStroke* out) {
     const PlacedSurface& surface = *context.surfaces.find(def.surface.id);
-    return replaceLayer(context, def.surface.id, def.name, laidOut(context, surface.data, def), out);
+    return replaceLayer(context, def.surface.id, def.name, laidOut(context, surface.content->data, def), out);
 }
 
 }  // namespace

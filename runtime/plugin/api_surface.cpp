@@ -35,9 +35,8 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
     const glm::mat4 toWorld = matrixOf(place);
     const std::optional<float> scale = evenScale(toWorld);
     if (!scale)
-        return fail(
-            &context, ESP_INVALID_ARGUMENT,
-            "espMoveSurface: the transform must move (by up to 1e9 m), turn and scale evenly, without mirroring");
+        return fail(&context, ESP_INVALID_ARGUMENT,
+                    "espMoveSurface: the transform must move (by up to 1e9 m), turn and scale evenly; it may mirror");
     if (toWorld == surface.toWorld) return ESP_OK;
     // All that asks for memory comes first. What it touches from now on is known when contacts have been found anew.
     SurfaceChanges changes = withChange(context, surface.instance, changeOfMove(surface.toWorld, toWorld));
@@ -49,7 +48,7 @@ EspResult move(EspContext& context, uint32_t id, PlacedSurface& surface, const E
     surface.toWorld = toWorld;
     surface.toObject = glm::inverse(toWorld);
     surface.scale = *scale;
-    surface.info = describe(surface.data, toWorld, surface.info.triangles, surface.info.levels);
+    surface.info = describe(*surface.content, toWorld);
     context.renderer->placeSurface(surface.instance, toWorld);
     const auto moved = [&](glm::vec3 p) { return glm::vec3(shift * glm::vec4(p, 1)); };
     const auto turned = [&](glm::vec3 v) { return glm::mat3(shift) * v; };
@@ -113,7 +112,7 @@ Status EspContext::refreshTables() {
             refs[surface.instance] = surface.gpu.ref(surface.toWorld);
             for (uint32_t i = 0; i < sceneLayers.size(); ++i) {
                 LayerRef& ref = layerRefs[surface.instance * kMaxLayers + i];
-                ref.size = surface.data.levels.front().size;
+                ref.size = surface.content->data.levels.front().size;
                 if (const PaintedLayer* painted = paintedLayer(*this, id, sceneLayers[i].name))
                     ref.texels = addressOf<FloatBuf>(painted->texels);
             }
@@ -168,6 +167,13 @@ EspResult espAddSurface(EspContext* context, const EspSurfaceDef* given, EspSurf
         if ((!def.name && !def.bytes) || !out)
             return fail(context, ESP_INVALID_ARGUMENT, "espAddSurface: null pointer");
         return load(*context, def, "espAddSurface: ", out);
+    });
+}
+
+EspResult espPlaceAgain(EspContext* context, EspSurface like, const EspTransform* place, EspSurface* out) {
+    return guarded(context, [&] {
+        if (!place || !out) return fail(context, ESP_INVALID_ARGUMENT, "espPlaceAgain: null pointer");
+        return standLike(*context, "espPlaceAgain: ", like.id, *place, out);
     });
 }
 

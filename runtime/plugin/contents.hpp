@@ -40,8 +40,17 @@ struct SurfaceRequest {
     glm::dvec3 stand{0};                                  // as PlacedSurface's
 };
 
-// A placed surface: on the GPU, and what picking, planting and laying layers need on the CPU. Its place in the id
-// table is its instance number, which nodes and seeds carry.
+// What picking, planting and laying layers need of a surface on the CPU: once for all its places.
+struct SurfaceContent {
+    SurfaceData data;                    // without images and all levels but the first, once it is on the GPU
+    uint32_t triangles = 0, levels = 0;  // of the file
+    MeshTree tree;
+    BlockBounds blocks;  // made when it is first painted on
+    // Made when it first comes near another surface; data then holds crossings and all levels again, without aux.
+    std::unique_ptr<ContactGround> ground;
+};
+
+// A surface at a place. Its place in the id table is its instance number, which nodes and seeds carry.
 struct PlacedSurface {
     uint32_t instance = 0;
     SurfaceRequest from;  // what it is read from, and where it stood when it was read last
@@ -51,13 +60,9 @@ struct PlacedSurface {
     glm::mat4 toWorld{1}, toObject{1};
     float scale = 1;
     bool hidden = false;
-    SurfaceData data;  // without images and all levels but the first, once it is on the GPU
+    std::shared_ptr<SurfaceContent> content;
     EspSurfaceInfo info;
     GpuSurface gpu;
-    MeshTree tree;
-    BlockBounds blocks;  // made when it is first painted on
-    // Made when it first comes near another surface; data then holds crossings and all levels again, without aux.
-    std::unique_ptr<ContactGround> ground;
     std::vector<Crossing> contacts;  // to other surfaces, as its GPU data has them
     TexelSets buried;                // by other surfaces, likewise
 };

@@ -30,7 +30,7 @@
 namespace espalier {
 
 // A place is the number of an instance. Records have 16 bits for it; fewer here leave an id more generations.
-using SurfaceTable = IdTable<PlacedSurface, 12>;
+using SurfaceTable = IdTable<PlacedSurface, 16>;  // as nodes and crossings count instances
 
 // What of a context is made from what. An edit calls change() of what it changes; what is made from that is due then.
 struct ContextNodes {

@@ -15,7 +15,7 @@ Result<FieldGround*> groundOf(EspContext& context, uint32_t id) {
     if (ground.surface) return &ground;
     const PlacedSurface& placed = *context.surfaces.find(id);
     auto surface = std::make_unique<SurfaceData>();
-    surface->charts = placed.data.charts;
+    surface->charts = placed.content->data.charts;
     if (Status read = placed.gpu.readForFields(*context.device, *surface); !read) return read.failure();
     ground.mesh = makeFieldMesh(*surface);
     ground.sampling = std::make_unique<FieldSampling>(*surface, ground.mesh);

@@ -17,6 +17,12 @@ namespace {
 
 constexpr float kStays = 1.25f;  // what stands counts as needed so much more, lest two take turns
 
+// Surfaces that agree in these share what is read.
+using SharedFile = std::pair<std::string_view, bool>;
+SharedFile fileOf(const auto& streamed) {
+    return {streamed.request.name, streamed.request.groundOnly};
+}
+
 }  // namespace
 
 EspResult Streaming::add(SurfaceRequest request, glm::vec3 low, glm::vec3 high, EspSurface* out) {
@@ -54,8 +60,11 @@ bool Streaming::uploading(const Streamed& streamed) const {
 
 uint64_t Streaming::deviceBytes() const {
     uint64_t sum = 0;
-    for (const auto& [id, streamed] : surfaces_)
-        if (stands(id) || uploading(streamed)) sum += streamed.bytes;
+    std::set<const SurfaceContent*> counted;
+    for (const auto& [id, streamed] : surfaces_) {
+        const PlacedSurface* standing = context_.surfaces.find(id);
+        if (standing ? counted.insert(standing->content.get()).second : uploading(streamed)) sum += streamed.bytes;
+    }
     return sum;
 }
 
@@ -79,26 +88,34 @@ std::set<uint32_t> Streaming::wanted() const {
         return a.first != b.first ? a.first > b.first : a.second < b.second;
     });
     std::set<uint32_t> wanted;
+    std::set<SharedFile> files;
     uint64_t used = 0;
     for (const auto& [need, id] : order) {
         if (need < def_.leastSize) break;
         const uint64_t own = surfaces_.at(id).bytes, bytes = own > 0 || known == 0 ? own : sum / known;
         if (bytes > def_.deviceBytes) continue;
-        if (used + bytes > def_.deviceBytes) break;
-        used += bytes;
+        const bool shares = files.contains(fileOf(surfaces_.at(id)));
+        if (!shares && used + bytes > def_.deviceBytes) break;
+        if (!shares) used += bytes;
+        files.insert(fileOf(surfaces_.at(id)));
         wanted.insert(id);
     }
     return wanted;
 }
 
-uint32_t Streaming::leastNeeded(float need) const {
-    uint32_t least = 0;
-    for (const auto& [id, streamed] : surfaces_) {
-        if (!stands(id)) continue;
-        const float own = needOf(id, streamed);
-        if (own < need) least = id, need = own;
-    }
-    return least;
+bool Streaming::makeRoomBelow(float need) {
+    std::map<const SurfaceContent*, float> needs;  // as of the place that needs it most
+    for (const auto& [id, streamed] : surfaces_)
+        if (const PlacedSurface* standing = context_.surfaces.find(id)) {
+            float& most = needs[standing->content.get()];
+            most = std::max(most, needOf(id, streamed));
+        }
+    const auto least = std::ranges::min_element(needs, {}, [](const auto& content) { return content.second; });
+    if (least == needs.end() || !(least->second < need)) return false;
+    for (auto& [id, streamed] : surfaces_)
+        if (const PlacedSurface* standing = context_.surfaces.find(id))
+            if (standing->content.get() == least->first) sendAway(id, streamed);
+    return true;
 }
 
 void Streaming::advance() {
@@ -111,18 +128,26 @@ void Streaming::advance() {
         else
             endLoad(streamed);
     }
-    while (deviceBytes() > def_.deviceBytes) {
-        const uint32_t least = leastNeeded(std::numeric_limits<float>::infinity());
-        if (!least) break;
-        sendAway(least, surfaces_.at(least));
+    while (deviceBytes() > def_.deviceBytes && makeRoomBelow(std::numeric_limits<float>::infinity())) {
     }
     std::vector<std::pair<float, uint32_t>> order;
     for (const uint32_t id : wants)
         if (!stands(id) && surfaces_.at(id).load == 0) order.emplace_back(-needOf(id, surfaces_.at(id)), id);
     std::ranges::sort(order);
+    std::map<SharedFile, uint32_t> standing;  // one of them
+    std::set<SharedFile> onTheirWay;
+    for (const auto& [id, streamed] : surfaces_) {
+        if (stands(id)) standing.emplace(fileOf(streamed), id);
+        if (streamed.load != 0) onTheirWay.insert(fileOf(streamed));
+    }
     for (const auto& [need, id] : order) {
-        if (coming++ >= def_.loadsAtOnce) break;
         Streamed& streamed = surfaces_.at(id);
+        if (const auto like = standing.find(fileOf(streamed)); like != standing.end()) {
+            standAsIs(id, streamed, like->second);
+            continue;
+        }
+        if (coming >= def_.loadsAtOnce || !onTheirWay.insert(fileOf(streamed)).second) continue;
+        ++coming;
         std::optional<std::vector<std::byte>> file;
         if (context_.files.fromHost()) {
             const EspResult unread = readWhole(&context_, streamed.request.name, file.emplace());
@@ -135,34 +160,49 @@ void Streaming::advance() {
     }
 }
 
+void Streaming::standAsIs(uint32_t id, Streamed& streamed, uint32_t like) {
+    const PlacedSurface& standing = *context_.surfaces.find(like);
+    const uint64_t hash = standing.content->data.hash;
+    if (const EspResult bad = mayStand(streamed, hash); bad != ESP_OK)
+        return failed(id, bad, std::exchange(context_.error, {}));
+    streamed.bytes = surfaces_.at(like).bytes;
+    standLike(context_, id, standing, streamed.request);
+    stood(id, streamed, hash);
+}
+
 bool Streaming::makeRoom(uint32_t load, uint64_t bytes) {
     const auto found = std::ranges::find_if(surfaces_, [&](const auto& s) { return s.second.load == load; });
     if (found == surfaces_.end()) return true;
     auto& [id, streamed] = *found;
     streamed.bytes = bytes;
     const float need = needOf(id, streamed);
-    while (deviceBytes() + bytes > def_.deviceBytes) {
-        const uint32_t least = leastNeeded(need);
-        if (!least) return false;  // the next advance() finds what is wanted now
-        sendAway(least, surfaces_.at(least));
-    }
+    while (deviceBytes() + bytes > def_.deviceBytes)
+        if (!makeRoomBelow(need)) return false;  // the next advance() finds what is wanted now
     return true;
+}
+
+EspResult Streaming::mayStand(const Streamed& streamed, uint64_t hash) const {
+    if (streamed.hash == 0 || hash == streamed.hash) return ESP_OK;
+    return fail(
+        &context_, ESP_INVALID_CONTENT,
+        streamed.request.name + ": isn't the file any more that stood here: destroy the surface and add it anew");
 }
 
 EspResult Streaming::stand(uint32_t id, SurfaceRead read) {
     Streamed& streamed = surfaces_.at(id);
-    const uint64_t hash = read.surface.data.hash;
-    if (streamed.hash != 0 && hash != streamed.hash)
-        return fail(
-            &context_, ESP_INVALID_CONTENT,
-            streamed.request.name + ": isn't the file any more that stood here: destroy the surface and add it anew");
+    const uint64_t hash = read.surface.content->data.hash;
+    if (const EspResult bad = mayStand(streamed, hash); bad != ESP_OK) return bad;
     standAs(context_, id, std::move(read));
+    stood(id, streamed, hash);
+    return ESP_OK;
+}
+
+void Streaming::stood(uint32_t id, Streamed& streamed, uint64_t hash) {
     context_.layers.insert(context_.layers.end(), std::make_move_iterator(streamed.layers.begin()),
                            std::make_move_iterator(streamed.layers.end()));
     streamed.layers.clear();
     streamed.hash = hash;
     endLoad(streamed);
-    return ESP_OK;
 }
 
 void Streaming::failed(uint32_t id, EspResult result, const std::string& message) {

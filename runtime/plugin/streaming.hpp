@@ -52,7 +52,7 @@ class Streaming {
         glm::vec3 middle{0};  // world
         Remainder remainder;  // of it
         float radius = 0;     // world
-        uint64_t bytes = 0;   // of the device; 0: not known yet
+        uint64_t bytes = 0;   // of the device, which places of one file share; 0: not known yet
         uint64_t hash = 0;    // of the file as it first stood; 0: it never has
         uint32_t load = 0;    // that it comes by
         EspResult result = ESP_OK;
@@ -65,10 +65,14 @@ class Streaming {
     bool uploading(const Streamed& streamed) const;
     uint64_t deviceBytes() const;
     std::set<uint32_t> wanted() const;
-    // The standing surface that is needed least, and less than `need`; 0: there is none.
-    uint32_t leastNeeded(float need) const;
+    // Sends away what shares the bytes that are needed least, and less than `need`. False: there is nothing.
+    bool makeRoomBelow(float need);
     void sendAway(uint32_t id, Streamed& streamed);
     void endLoad(Streamed& streamed);
+    // As another place of what stands already.
+    void standAsIs(uint32_t id, Streamed& streamed, uint32_t like);
+    EspResult mayStand(const Streamed& streamed, uint64_t hash) const;
+    void stood(uint32_t id, Streamed& streamed, uint64_t hash);
 
     EspContext& context_;
     EspStreamingDef def_;

@@ -18,14 +18,14 @@ void tellFill(EspContext& context, uint32_t surface, const std::string& name, fl
     const PlacedSurface& placed = *context.surfaces.find(surface);
     for (uint32_t layer = 0; layer < context.sceneLayers.size(); ++layer)
         if (context.sceneLayers[layer].name == name && context.sceneLayers[layer].fill != fill) {
-            context.changes.markLayer(placed.instance, layer, placed.data.levels.front().size);
+            context.changes.markLayer(placed.instance, layer, placed.content->data.levels.front().size);
             context.nodes.paint.change();
         }
 }
 
 // A layer of this name for a surface that has none, filled with `fill`.
 EspResult makeLayer(EspContext& context, uint32_t surface, const std::string& name, float fill, uint64_t number) {
-    const uint32_t size = context.surfaces.find(surface)->data.levels.front().size;
+    const uint32_t size = context.surfaces.find(surface)->content->data.levels.front().size;
     Result<Buffer> texels = Buffer::create(*context.device, "layer", uint64_t(size) * size * sizeof(float));
     if (!texels) return failGpu(&context, texels.failure());
     Result<Commands> commands = Commands::begin(*context.device, "fill layer");

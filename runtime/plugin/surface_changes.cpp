@@ -30,7 +30,7 @@ uint32_t inputsChangedBy(SurfaceChange change) {
 }  // namespace
 
 SurfaceChange changeOfMove(const glm::mat4& before, const glm::mat4& after) {
-    if (scaleOf(before) != scaleOf(after)) return SurfaceChange::ground;
+    if (scaleOf(before) != scaleOf(after) || isMirrored(before) != isMirrored(after)) return SurfaceChange::ground;
     return glm::mat3(before) == glm::mat3(after) ? SurfaceChange::shifted : SurfaceChange::turned;
 }
 

@@ -26,9 +26,9 @@ Box boxOf(const PlacedSurface& surface) {
 
 // What a search between surfaces needs of one, made when it is first needed.
 Status prepare(EspContext& context, PlacedSurface& surface) {
-    if (surface.ground) return Done{};
-    if (Status read = surface.gpu.readBack(*context.device, surface.data); !read) return read;
-    surface.ground = std::make_unique<ContactGround>(surface.data);
+    if (surface.content->ground) return Done{};
+    if (Status read = surface.gpu.readBack(*context.device, surface.content->data); !read) return read;
+    surface.content->ground = std::make_unique<ContactGround>(surface.content->data);
     return Done{};
 }
 
@@ -84,7 +84,7 @@ const SurfacePair* sameIn(const std::vector<SurfacePair>& sorted, const SurfaceP
 
 Status find(EspContext& context, SurfacePair& pair) {
     const auto placed = [&](const Stand& stand) {
-        return PlacedGround{context.surfaces.find(stand.id)->ground.get(), glm::dmat4(stand.toWorld)};
+        return PlacedGround{context.surfaces.find(stand.id)->content->ground.get(), glm::dmat4(stand.toWorld)};
     };
     std::vector<PlacedGround> others;
     for (const Stand& stand : {pair.a, pair.b})
@@ -95,8 +95,8 @@ Status find(EspContext& context, SurfacePair& pair) {
     }
     const PlacedGround a = placed(pair.a), b = placed(pair.b);
     pair.found = contactsOf(a, b, others);
-    pair.hiddenOfA = hiddenTexels(context.surfaces.find(pair.a.id)->data, a, b, pair.found.fromA, true);
-    pair.hiddenOfB = hiddenTexels(context.surfaces.find(pair.b.id)->data, b, a, pair.found.fromB, false);
+    pair.hiddenOfA = hiddenTexels(context.surfaces.find(pair.a.id)->content->data, a, b, pair.found.fromA, true);
+    pair.hiddenOfB = hiddenTexels(context.surfaces.find(pair.b.id)->content->data, b, a, pair.found.fromB, false);
     return Done{};
 }
 
@@ -121,9 +121,9 @@ bool buriedByOthers(const EspContext& context, const PlantedSeed& seed) {
     const auto hides = [&](const Stand& other, bool yields) {
         const PlacedSurface *by = context.surfaces.find(other.id), *own = context.surfaces.find(seed.surface);
         if (!by || !own) return false;  // gone since contacts were found
-        return hiddenBy({by->ground.get(), glm::dmat4(other.toWorld)},
+        return hiddenBy({by->content->ground.get(), glm::dmat4(other.toWorld)},
                         {seed.position, seed.normal, kNoIndex, kNoIndex, false, yields},
-                        own->ground->texel() * own->scale);
+                        own->content->ground->texel() * own->scale);
     };
     return std::ranges::any_of(context.pairs, [&](const SurfacePair& pair) {
         return (pair.a.id == seed.surface && hides(pair.b, true)) ||
@@ -176,9 +176,9 @@ Status refreshContacts(EspContext& context) {
             if (pair.b.id == id) add(pair.found.fromB, pair.a.id), addTo(hidden, pair.hiddenOfB);
         }
         context.contactCount += uint32_t(wanted.size());
-        TexelSets buried = buriedTexels(surface.data, hidden, wanted);
+        TexelSets buried = buriedTexels(surface.content->data, hidden, wanted);
         if (!status || (same(wanted, surface.contacts) && buried == surface.buried)) return;
-        status = surface.gpu.addCrossings(*context.device, surface.data, wanted, buried);
+        status = surface.gpu.addCrossings(*context.device, surface.content->data, wanted, buried);
         if (!status) return;
         context.surfaceChanges[surface.instance] = SurfaceChange::ground;
         surface.contacts = std::move(wanted), surface.buried = std::move(buried);

@@ -43,7 +43,7 @@ uint32_t chartAt(const SurfaceData& data, glm::vec2 uv, glm::vec3 position) {
 }
 
 std::optional<SurfacePoint> pointOf(uint32_t id, const PlacedSurface& surface, const MeshHit& hit) {
-    const SurfaceData& data = surface.data;
+    const SurfaceData& data = surface.content->data;
     const DrawVertex& a = data.vertices[data.indices[3 * hit.triangle]];
     const DrawVertex& b = data.vertices[data.indices[3 * hit.triangle + 1]];
     const DrawVertex& c = data.vertices[data.indices[3 * hit.triangle + 2]];
@@ -68,8 +68,8 @@ std::optional<SurfacePoint> pickSurfaces(const EspContext& context, glm::vec3 or
     float reach = std::numeric_limits<float>::infinity();
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
         if (seen && surface.hidden) return;
-        const auto hit =
-            surface.tree.pick(transformed(surface.toObject, origin), glm::mat3(surface.toObject) * direction, reach);
+        const auto hit = surface.content->tree.pick(transformed(surface.toObject, origin),
+                                                    glm::mat3(surface.toObject) * direction, reach);
         if (!hit) return;
         if (auto point = pointOf(id, surface, *hit)) {
             best = point;
@@ -84,7 +84,7 @@ std::optional<SurfacePoint> nearestOnSurfaces(const EspContext& context, glm::ve
     std::optional<SurfacePoint> best;
     float reach = std::numeric_limits<float>::infinity();  // metres in the world
     context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {
-        const auto hit = surface.tree.nearest(transformed(surface.toObject, point), reach / surface.scale);
+        const auto hit = surface.content->tree.nearest(transformed(surface.toObject, point), reach / surface.scale);
         if (!hit) return;
         if (auto found = pointOf(id, surface, *hit)) {
             best = found;

@@ -26,8 +26,8 @@ void dropUploaded(SurfaceData& data) {
 }
 
 // For picking and planting: only triangles that can be walked. The bake leaves the others at walk UV (0, 0).
-void prepareSearch(PlacedSurface& surface) {
-    SurfaceData& data = surface.data;
+void prepareSearch(SurfaceContent& content) {
+    SurfaceData& data = content.data;
     std::vector<uint32_t> walkable;
     std::vector<uint8_t> bare;
     walkable.reserve(data.indices.size());
@@ -43,7 +43,38 @@ void prepareSearch(PlacedSurface& surface) {
     std::vector<glm::vec3> positions;
     positions.reserve(data.vertices.size());
     for (const DrawVertex& vertex : data.vertices) positions.push_back(vertex.position);
-    surface.tree = MeshTree(positions, data.indices);
+    content.tree = MeshTree(positions, data.indices);
+}
+
+// Where a request asks for it.
+PlacedSurface placedAs(const SurfaceRequest& request, std::shared_ptr<SurfaceContent> content) {
+    PlacedSurface surface;
+    surface.from = request;
+    surface.stand = request.stand;
+    surface.place = request.place;
+    surface.toWorld = matrixOf(request.place);
+    surface.toObject = glm::inverse(surface.toWorld);
+    surface.scale = evenScale(surface.toWorld).value_or(1.0f);
+    surface.info = describe(*content, surface.toWorld);
+    surface.content = std::move(content);
+    return surface;
+}
+
+SurfaceRequest checked(const EspContext& context, const std::string& call, SurfaceRequest request) {
+    if (context.surfaces.size() >= SurfaceTable::kMaxPlaces)
+        throw Refusal{call + "there are " + std::to_string(SurfaceTable::kMaxPlaces) + " surfaces already"};
+    if (!evenScale(matrixOf(request.place)))
+        throw Refusal{call + "the transform must move (by up to 1e9 m), turn and scale evenly; it may mirror"};
+    request.stand = standOf(context, request.place);
+    return request;
+}
+
+// The surface of a reserved id is all there is of it; puts it into the context.
+void put(EspContext& context, uint32_t id, PlacedSurface placed) {
+    context.surfaces.put(id, std::move(placed));
+    PlacedSurface& surface = *context.surfaces.find(id);
+    settle(context, surface);  // the origin may have moved while it was on its way
+    surface.placed = context.nodes.surfaces.change();
 }
 
 }  // namespace
@@ -63,7 +94,7 @@ void settle(EspContext& context, PlacedSurface& surface) {
     if (toWorld == surface.toWorld) return;
     surface.toWorld = toWorld;
     surface.toObject = glm::inverse(toWorld);
-    surface.info = describe(surface.data, toWorld, surface.info.triangles, surface.info.levels);
+    surface.info = describe(*surface.content, toWorld);
     surface.placed = nextVersion();
     context.renderer->placeSurface(surface.instance, toWorld);
 }
@@ -85,11 +116,11 @@ std::optional<float> evenScale(const glm::mat4& m) {
     if (!(std::abs(glm::length(y) - scale) < limit) || !(std::abs(glm::length(z) - scale) < limit)) return std::nullopt;
     const float skew = std::max({std::abs(glm::dot(x, y)), std::abs(glm::dot(x, z)), std::abs(glm::dot(y, z))});
     if (!(skew < limit * scale)) return std::nullopt;
-    if (glm::dot(glm::cross(x, y), z) < 0) return std::nullopt;
     return scale;
 }
 
-EspSurfaceInfo describe(const SurfaceData& data, const glm::mat4& toWorld, uint32_t triangles, uint32_t levels) {
+EspSurfaceInfo describe(const SurfaceContent& content, const glm::mat4& toWorld) {
+    const SurfaceData& data = content.data;
     EspSurfaceInfo info{};
     glm::vec3 low(std::numeric_limits<float>::infinity()), high(-low);
     for (int corner = 0; corner < 8; ++corner) {
@@ -102,9 +133,9 @@ EspSurfaceInfo describe(const SurfaceData& data, const glm::mat4& toWorld, uint3
     }
     put(info.boundsMin, low);
     put(info.boundsMax, high);
-    info.triangles = triangles;
+    info.triangles = content.triangles;
     info.charts = uint32_t(data.charts.size());
-    info.levels = levels;
+    info.levels = content.levels;
     info.resolution = data.levels.front().size;
     const double scale = glm::length(glm::vec3(toWorld[0]));
     for (const Chart& chart : data.charts) info.walkableArea += chart.area * scale * scale;
@@ -114,18 +145,13 @@ EspSurfaceInfo describe(const SurfaceData& data, const glm::mat4& toWorld, uint3
 }
 
 SurfaceRequest requestOf(const EspContext& context, const std::string& call, const EspSurfaceDef& def) {
-    if (context.surfaces.size() >= SurfaceTable::kMaxPlaces)
-        throw Refusal{call + "there are " + std::to_string(SurfaceTable::kMaxPlaces) + " surfaces already"};
     SurfaceRequest request{def.name ? def.name : "a surface from memory", def.place ? *def.place : espIdentity(),
                            def.groundOnly != 0, nullptr, glm::dvec3(0)};
-    request.stand = standOf(context, request.place);
     if (def.bytes) {
         const auto* first = static_cast<const std::byte*>(def.bytes);
         request.bytes = std::make_shared<const std::vector<std::byte>>(first, first + def.size);
     }
-    if (!evenScale(matrixOf(request.place)))
-        throw Refusal{call + "the transform must move (by up to 1e9 m), turn and scale evenly, without mirroring"};
-    return request;
+    return checked(context, call, std::move(request));
 }
 
 EspResult readFileOf(const EspContext& context, const SurfaceRequest& request, std::vector<std::byte>& file) {
@@ -139,20 +165,15 @@ Result<SurfaceRead> readSurface(std::vector<std::byte> file, const SurfaceReques
     if (!data) return data.failure();
     SurfaceRead read;
     read.groundOnly = request.groundOnly;
-    PlacedSurface& surface = read.surface;
-    surface.from = request;
-    surface.stand = request.stand;
-    surface.place = request.place;
-    surface.toWorld = matrixOf(request.place);
-    surface.toObject = glm::inverse(surface.toWorld);
-    surface.scale = evenScale(surface.toWorld).value_or(1.0f);
-    surface.data = std::move(*data);
-    surface.info = describe(surface.data, surface.toWorld, uint32_t(surface.data.indices.size() / 3),
-                            uint32_t(surface.data.levels.size()));
-    read.ground = GpuSurface::plan(surface.data, read.upload);
-    read.drawn = Models::plan(surface.data, surface.toWorld, request.groundOnly, roots, read.upload);
-    dropUploaded(surface.data);
-    prepareSearch(surface);
+    auto content = std::make_shared<SurfaceContent>();
+    content->data = std::move(*data);
+    content->triangles = uint32_t(content->data.indices.size() / 3);
+    content->levels = uint32_t(content->data.levels.size());
+    read.ground = GpuSurface::plan(content->data, read.upload);
+    read.drawn = Models::plan(content->data, matrixOf(request.place), request.groundOnly, roots, read.upload);
+    dropUploaded(content->data);
+    prepareSearch(*content);
+    read.surface = placedAs(request, std::move(content));
     return read;
 }
 
@@ -160,31 +181,58 @@ void standAs(EspContext& context, uint32_t id, SurfaceRead read) {
     read.surface.gpu = GpuSurface(read.ground, read.upload);
     read.surface.instance = instanceOf(id);
     context.renderer->setSurface(read.surface.instance, std::move(read.drawn), read.upload);
-    context.surfaces.put(id, std::move(read.surface));
-    PlacedSurface& surface = *context.surfaces.find(id);
-    settle(context, surface);  // the origin may have moved while it was on its way
-    surface.placed = context.nodes.surfaces.change();
+    put(context, id, std::move(read.surface));
 }
 
-EspResult standAgain(EspContext& context, PlacedSurface& surface) {
+void standLike(EspContext& context, uint32_t id, const PlacedSurface& like, SurfaceRequest request) {
+    PlacedSurface surface = placedAs(request, like.content);
+    surface.gpu = like.gpu.another();
+    surface.instance = instanceOf(id);
+    context.renderer->setSurfaceLike(surface.instance, like.instance, surface.toWorld);
+    put(context, id, std::move(surface));
+}
+
+EspResult standLike(EspContext& context, const std::string& call, uint32_t like, const EspTransform& place,
+                    EspSurface* out) {
+    const PlacedSurface* placed = context.surfaces.find(like);
+    if (!placed) return fail(&context, ESP_INVALID_ARGUMENT, call + "no such surface");
+    SurfaceRequest request = placed->from;
+    request.place = place;
+    request = checked(context, call, std::move(request));
+    const uint32_t id = context.surfaces.reserve();
+    if (!id) return fail(&context, ESP_OUT_OF_MEMORY, call + "no numbers for surfaces are left");
+    Undo reserving([&] { context.surfaces.release(id); });
+    standLike(context, id, *context.surfaces.find(like), std::move(request));
+    reserving.done();
+    out->id = id;
+    return ESP_OK;
+}
+
+EspResult standAgain(EspContext& context, uint32_t id) {
+    PlacedSurface& surface = *context.surfaces.find(id);
+    if (surface.gpu) return ESP_OK;  // as another place of what has been read already
     SurfaceRequest request = surface.from;
     request.place = surface.place;
     std::vector<std::byte> file;
     if (EspResult unread = readFileOf(context, request, file)) return unread;
     Result<SurfaceRead> read = readSurface(std::move(file), request, holdsRoots(*context.device));
     if (!read) return failContent(&context, read.failure());
-    if (read->surface.data.hash != surface.data.hash)
+    if (read->surface.content->data.hash != surface.content->data.hash)
         return fail(&context, ESP_INVALID_CONTENT, request.name + ": isn't the file any more that was loaded");
     if (Status uploaded = read->upload.run(*context.device); !uploaded) return failGpu(&context, uploaded.failure());
-    PlacedSurface& fresh = read->surface;
-    fresh.gpu = GpuSurface(read->ground, read->upload);
-    fresh.instance = surface.instance;
-    fresh.hidden = surface.hidden;
-    fresh.stand = surface.stand;
-    fresh.placed = context.nodes.surfaces.change();
-    context.renderer->setSurface(fresh.instance, std::move(read->drawn), read->upload);
-    context.renderer->hideSurface(fresh.instance, fresh.hidden);
-    surface = std::move(fresh);
+    const GpuSurface gpu(read->ground, read->upload);
+    context.renderer->setSurface(surface.instance, std::move(read->drawn), read->upload);
+    const std::shared_ptr<SurfaceContent> before = surface.content, now = read->surface.content;
+    context.surfaces.forEach([&](uint32_t, PlacedSurface& place) {
+        if (place.content != before) return;
+        if (&place != &surface) context.renderer->setSurfaceLike(place.instance, surface.instance, place.toWorld);
+        context.renderer->hideSurface(place.instance, place.hidden);
+        place.content = now;
+        place.gpu = gpu.another();
+        place.contacts = {};
+        place.buried = {};
+        place.placed = context.nodes.surfaces.change();
+    });
     return ESP_OK;
 }
 

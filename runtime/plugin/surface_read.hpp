@@ -37,8 +37,16 @@ EspResult standSurface(EspContext& context, const std::string& call, SurfaceRead
 // Likewise under an id that is reserved.
 void standAs(EspContext& context, uint32_t id, SurfaceRead read);
 
-// Reads and uploads a surface of the context once more, after all that was on the device has gone.
-EspResult standAgain(EspContext& context, PlacedSurface& surface);
+// Puts a surface that stands at another place, too, which shares all that was read and uploaded. Fails where the place
+// can't be used, with messages that begin with `call`.
+EspResult standLike(EspContext& context, const std::string& call, uint32_t like, const EspTransform& place,
+                    EspSurface* out);
+// Likewise under an id that is reserved.
+void standLike(EspContext& context, uint32_t id, const PlacedSurface& like, SurfaceRequest request);
+
+// Reads and uploads a surface of the context once more, after all that was on the device has gone; its other places
+// share that again.
+EspResult standAgain(EspContext& context, uint32_t id);
 
 // Where a host's place puts what stands there, seen from the world's first origin.
 glm::dvec3 standOf(const EspContext& context, const EspTransform& place);
@@ -49,8 +57,8 @@ EspTransform placeAt(const EspContext& context, EspTransform place, const glm::d
 void settle(EspContext& context, PlacedSurface& surface);
 
 glm::mat4 matrixOf(const EspTransform& place);
-// The scale of a move, a turn and an even scale, or nothing.
+// The scale of a move, a turn and an even scale, mirrored perhaps, or nothing.
 std::optional<float> evenScale(const glm::mat4& toWorld);
-EspSurfaceInfo describe(const SurfaceData& data, const glm::mat4& toWorld, uint32_t triangles, uint32_t levels);
+EspSurfaceInfo describe(const SurfaceContent& content, const glm::mat4& toWorld);
 
 }  // namespace espalier

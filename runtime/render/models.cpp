@@ -72,25 +72,25 @@ const Sampler& Models::samplerOf(const Material& material, bool quick) const {
 }
 
 // Which way is up, and how high storeys are.
-void Models::raise(const SurfaceData& data, Model& model) {
-    model.up = glm::vec3(model.toWorld[0].y, model.toWorld[1].y, model.toWorld[2].y);
+void Models::raise(const SurfaceData& data, const glm::mat4& toWorld, Shape& shape) {
+    shape.up = glm::vec3(toWorld[0].y, toWorld[1].y, toWorld[2].y);
     float highest = -1e30f;
-    model.lowest = 1e30f;
+    shape.lowest = 1e30f;
     for (const DrawVertex& v : data.vertices) {
-        model.lowest = std::min(model.lowest, glm::dot(model.up, v.position));
-        highest = std::max(highest, glm::dot(model.up, v.position));
+        shape.lowest = std::min(shape.lowest, glm::dot(shape.up, v.position));
+        highest = std::max(highest, glm::dot(shape.up, v.position));
     }
-    model.storey = std::max((highest - model.lowest) / kStoreys, 1e-12f);
+    shape.storey = std::max((highest - shape.lowest) / kStoreys, 1e-12f);
 }
 
 // Within a storey triangles keep their order, which vertex caches like.
-Models::Storeys Models::intoStoreys(const Model& model, std::span<const DrawVertex> vertices,
+Models::Storeys Models::intoStoreys(const Shape& shape, std::span<const DrawVertex> vertices,
                                     std::span<uint32_t> indices) {
     std::array<std::vector<uint32_t>, kStoreys> storeys;
     for (size_t i = 0; i + 2 < indices.size(); i += 3) {
         float lowest = 1e30f;
-        for (size_t c = i; c < i + 3; ++c) lowest = std::min(lowest, glm::dot(model.up, vertices[indices[c]].position));
-        const float at = std::clamp((lowest - model.lowest) / model.storey, 0.0f, float(kStoreys - 1));
+        for (size_t c = i; c < i + 3; ++c) lowest = std::min(lowest, glm::dot(shape.up, vertices[indices[c]].position));
+        const float at = std::clamp((lowest - shape.lowest) / shape.storey, 0.0f, float(kStoreys - 1));
         auto& storey = storeys[size_t(at)];
         storey.insert(storey.end(), &indices[i], &indices[i] + 3);
     }
@@ -103,33 +103,31 @@ Models::Storeys Models::intoStoreys(const Model& model, std::span<const DrawVert
     return ends;
 }
 
-void Models::planMeshes(const SurfaceData& data, Plan& plan, Upload& upload) {
-    Model& model = plan.model;
+void Models::planMeshes(const SurfaceData& data, const glm::mat4& toWorld, Plan& plan, Upload& upload) {
+    Shape& shape = plan.shape;
     std::vector<DrawVertex> vertices = data.vertices;
     std::vector<uint32_t> indices = data.indices;
-    model.meshes.push_back({.ranges = data.ranges});
-    const float scale = glm::length(glm::vec3(model.toWorld[0]));
+    shape.meshes.push_back({.ranges = data.ranges});
     for (const CoarserMesh& mesh : data.coarser) {
-        model.meshes.push_back(
-            {.firstVertex = int32_t(vertices.size()), .ranges = mesh.ranges, .error = mesh.error * scale});
-        for (DrawRange& range : model.meshes.back().ranges) range.firstIndex += uint32_t(indices.size());
+        shape.meshes.push_back({.firstVertex = int32_t(vertices.size()), .ranges = mesh.ranges, .error = mesh.error});
+        for (DrawRange& range : shape.meshes.back().ranges) range.firstIndex += uint32_t(indices.size());
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
-    raise(data, model);
-    for (Mesh& mesh : model.meshes) {
+    raise(data, toWorld, shape);
+    for (Mesh& mesh : shape.meshes) {
         const auto from = std::span(vertices).subspan(size_t(mesh.firstVertex));
         std::vector<uint32_t> opaque;
         for (const DrawRange& range : mesh.ranges) {
             const auto corners = std::span(indices).subspan(range.firstIndex, range.indexCount);
-            mesh.storeys.push_back(intoStoreys(model, from, corners));
-            const Material& material = model.materialOf(range);
+            mesh.storeys.push_back(intoStoreys(shape, from, corners));
+            const Material& material = shape.materialOf(range);
             if (material.alphaCutoff == 0 && !material.blended)
                 opaque.insert(opaque.end(), corners.begin(), corners.end());
         }
-        mesh.solidAbove = solidAbove(from, opaque, model.up);
+        mesh.solidAbove = solidAbove(from, opaque, shape.up);
         for (const DrawRange& range : mesh.ranges)
-            mesh.panes.push_back(model.materialOf(range).blended ? intoPanes(from, range, indices) : Panes{});
+            mesh.panes.push_back(shape.materialOf(range).blended ? intoPanes(from, range, indices) : Panes{});
     }
     plan.vertices = upload.addBuffer("model vertices", vertices);
     plan.indices = upload.addBuffer("model indices", indices);
@@ -138,7 +136,7 @@ void Models::planMeshes(const SurfaceData& data, Plan& plan, Upload& upload) {
 void Models::planPictures(const SurfaceData& data, bool roots, Plan& plan, Upload& upload) {
     plan.colors.assign(data.images.size(), Plan::kNone);
     plan.normals.assign(data.images.size(), Plan::kNone);
-    for (const Material& material : plan.model.materials) {
+    for (const Material& material : plan.shape.materials) {
         const struct {
             int index;
             std::vector<size_t>& images;
@@ -161,11 +159,13 @@ void Models::planPictures(const SurfaceData& data, bool roots, Plan& plan, Uploa
 
 void Models::Model::place(const glm::mat4& to) {
     toWorld = to;
+    scale = glm::length(glm::vec3(to[0]));
+    mirrored = glm::determinant(glm::mat3(to)) < 0;
     low = glm::vec3(1e30f);
     high = glm::vec3(-1e30f);
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 at((corner & 1) ? objectHigh.x : objectLow.x, (corner & 2) ? objectHigh.y : objectLow.y,
-                           (corner & 4) ? objectHigh.z : objectLow.z);
+        const glm::vec3 at((corner & 1) ? shape->high.x : shape->low.x, (corner & 2) ? shape->high.y : shape->low.y,
+                           (corner & 4) ? shape->high.z : shape->low.z);
         const glm::vec3 world(toWorld * glm::vec4(at, 1));
         low = glm::min(low, world);
         high = glm::max(high, world);
@@ -175,31 +175,43 @@ void Models::Model::place(const glm::mat4& to) {
 Models::Plan Models::plan(const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly, bool roots,
                           Upload& upload) {
     Plan plan;
-    Model& model = plan.model;
-    model.groundOnly = groundOnly;
-    model.objectLow = data.boundsMin;
-    model.objectHigh = data.boundsMax;
-    model.place(toWorld);
-    model.materials = data.materials;
-    if (model.materials.empty()) model.materials.emplace_back();
-    planMeshes(data, plan, upload);
+    plan.model.groundOnly = groundOnly;
+    plan.model.toWorld = toWorld;
+    Shape& shape = plan.shape;
+    shape.low = data.boundsMin;
+    shape.high = data.boundsMax;
+    shape.materials = data.materials;
+    if (shape.materials.empty()) shape.materials.emplace_back();
+    planMeshes(data, toWorld, plan, upload);
     planPictures(data, roots, plan, upload);
     planRecords(plan, upload);
     return plan;
 }
 
 void Models::set(uint32_t index, Plan plan, Upload& upload) {
-    Model& model = plan.model;
+    Shape& shape = plan.shape;
     const auto take = [&](const std::vector<size_t>& planned, auto& into, auto taken) {
         into.resize(planned.size());
         for (size_t i = 0; i < planned.size(); ++i)
             if (planned[i] != Plan::kNone) into[i] = (upload.*taken)(planned[i]);
     };
-    model.vertices = upload.takeBuffer(plan.vertices);
-    model.indices = upload.takeBuffer(plan.indices);
-    take(plan.colors, model.colors, &Upload::takeImage);
-    take(plan.normals, model.normals, &Upload::takeImage);
-    take(plan.records, model.records, &Upload::takeBuffer);
+    shape.vertices = upload.takeBuffer(plan.vertices);
+    shape.indices = upload.takeBuffer(plan.indices);
+    take(plan.colors, shape.colors, &Upload::takeImage);
+    take(plan.normals, shape.normals, &Upload::takeImage);
+    take(plan.records, shape.records, &Upload::takeBuffer);
+    Model& model = plan.model;
+    model.shape = std::make_shared<const Shape>(std::move(shape));
+    model.place(model.toWorld);
+    models_.insert_or_assign(index, std::move(model));
+    ++revision_;
+}
+
+void Models::setLike(uint32_t index, uint32_t like, const glm::mat4& toWorld) {
+    Model model;
+    model.shape = models_.at(like).shape;
+    model.groundOnly = models_.at(like).groundOnly;
+    model.place(toWorld);
     models_.insert_or_assign(index, std::move(model));
     ++revision_;
 }
@@ -220,10 +232,7 @@ void Models::remove(uint32_t index) {
 void Models::place(uint32_t index, const glm::mat4& toWorld) {
     const auto found = models_.find(index);
     if (found == models_.end()) return;
-    Model& model = found->second;
-    const float grows = glm::length(glm::vec3(toWorld[0])) / glm::length(glm::vec3(model.toWorld[0]));
-    for (auto& mesh : model.meshes) mesh.error *= grows;
-    model.place(toWorld);
+    found->second.place(toWorld);
     ++revision_;
 }
 

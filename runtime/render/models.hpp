@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,6 +40,8 @@ class Models {
     class Plan;
     static Plan plan(const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly, bool roots, Upload& upload);
     void set(uint32_t index, Plan plan, Upload& upload);
+    // The model `like`, which is there, at another place, too: shares what was uploaded.
+    void setLike(uint32_t index, uint32_t like, const glm::mat4& toWorld);
     void remove(uint32_t index);
     void place(uint32_t index, const glm::mat4& toWorld);
     // Neither drawn nor casting a shadow, in any view, until it is set anew or shown.
@@ -112,35 +115,41 @@ class Models {
         std::vector<DrawRange> ranges{};
         std::vector<Storeys> storeys{};  // [range]
         std::vector<Panes> panes{};      // [range]
-        float error = 0;                 // metres in the world
-        float solidAbove = 0;            // as of solid.hpp, along Model::up; of what has no cut-outs
+        float error = 0;                 // metres, before it is placed
+        float solidAbove = 0;            // as of solid.hpp, along Shape::up; of what has no cut-outs
     };
-    struct Model {
+    // What all places of a surface share.
+    struct Shape {
         Buffer vertices, indices;
         std::vector<Mesh> meshes;  // of rising error, 0 the model itself
+        std::vector<Material> materials;
+        std::vector<Image> colors, normals;  // one a picture of the file; empty where unused in that role
+        std::vector<Buffer> records;         // one a material: MaterialRecord, of those that aren't plain
+        glm::vec3 low{0}, high{0};           // object space
+        glm::vec3 up{0};                     // of the world, in object space, when triangles were put in order
+        float lowest = 0, storey = 0;        // along `up`: where the first storey begins, how high each is
+        const Material& materialOf(const DrawRange& range) const {
+            return materials[std::min<size_t>(range.material, materials.size() - 1)];
+        }
+    };
+    struct Model {
+        std::shared_ptr<const Shape> shape;
         uint32_t shown = 0, before = 0;
         uint32_t step = 0;  // of kFadeFrames from `before` to `shown`; 0: never drawn
         bool groundOnly = false;
         bool hidden = false;
         bool seen = true;  // some of it may lie in the view
-        std::vector<Material> materials;
-        std::vector<Image> colors, normals;  // one a picture of the file; empty where unused in that role
-        std::vector<Buffer> records;         // one a material: MaterialRecord, of those that aren't plain
-        glm::vec3 objectLow{0}, objectHigh{0};
         glm::mat4 toWorld{1};
-        glm::vec3 low{0}, high{0};     // world
-        glm::vec3 up{0};               // of the world, in object space, when triangles were put in order
-        float lowest = 0, storey = 0;  // along `up`: where the first storey begins, how high each is
+        float scale = 1;
+        bool mirrored = false;
+        glm::vec3 low{0}, high{0};  // world
         void place(const glm::mat4& to);
-        const Material& materialOf(const DrawRange& range) const {
-            return materials[std::min<size_t>(range.material, materials.size() - 1)];
-        }
     };
-    static void raise(const SurfaceData& data, Model& model);
-    static Storeys intoStoreys(const Model& model, std::span<const DrawVertex> vertices, std::span<uint32_t> indices);
+    static void raise(const SurfaceData& data, const glm::mat4& toWorld, Shape& shape);
+    static Storeys intoStoreys(const Shape& shape, std::span<const DrawVertex> vertices, std::span<uint32_t> indices);
     // Indices at a range's front whose triangles the meadow may reach.
     static uint32_t footOf(const Model& model, const Mesh& mesh, size_t range, float groundLevel, float unit);
-    static void planMeshes(const SurfaceData& data, Plan& plan, Upload& upload);
+    static void planMeshes(const SurfaceData& data, const glm::mat4& toWorld, Plan& plan, Upload& upload);
     static void planPictures(const SurfaceData& data, bool roots, Plan& plan, Upload& upload);
     static void planRecords(Plan& plan, Upload& upload);
     // Appends a range's triangles in the order of each direction.
@@ -153,6 +162,8 @@ class Models {
     const Sampler& samplerOf(const Material& material, bool quick) const;
     ModelPush pushOf(const Model& model, uint32_t mesh, const Material& material, uint32_t surface) const;
     static bool standsAs(const Model& model);
+    static void useBuffersOf(DrawPass& pass, const Model& model);
+    static void endModels(DrawPass& pass);
     // Where `eye` is, the mesh's backs may be seen.
     bool showsBacks(const Model& model, const Mesh& mesh, const Material& material) const;
     static uint32_t simplest(const Model& model, float error);
@@ -172,8 +183,9 @@ class Models::Plan {
     friend class Models;
     static constexpr size_t kNone = ~size_t(0);
     Model model;
+    Shape shape;
     size_t vertices = kNone, indices = kNone;
-    std::vector<size_t> colors, normals, records;  // as Model's; kNone: there is none
+    std::vector<size_t> colors, normals, records;  // as Shape's; kNone: there is none
 };
 
 // each(mesh, fade): the mesh that is drawn, or the two that share the picture.

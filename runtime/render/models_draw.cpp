@@ -35,29 +35,41 @@ float cutoffOf(const Material& m) {
 // Its up is as it was when triangles were put in order.
 bool Models::standsAs(const Model& model) {
     const glm::vec3 up(model.toWorld[0].y, model.toWorld[1].y, model.toWorld[2].y);
-    return glm::length(up - model.up) <= 1e-5f * glm::length(up);
+    return glm::length(up - model.shape->up) <= 1e-5f * glm::length(up);
 }
 
 uint32_t Models::footOf(const Model& model, const Mesh& mesh, size_t range, float groundLevel, float unit) {
     const uint32_t all = mesh.ranges[range].indexCount;
     if (!standsAs(model)) return all;
     const float reach = groundLevel + kMeadowReach * unit - model.toWorld[3].y;
-    const float storeys = std::floor((reach - model.lowest) / model.storey + 0.01f);
+    const float storeys = std::floor((reach - model.shape->lowest) / model.shape->storey + 0.01f);
     if (storeys < 0) return 0;
     return storeys < float(kStoreys) ? mesh.storeys[range][size_t(storeys)] : all;
 }
 
 bool Models::showsBacks(const Model& model, const Mesh& mesh, const Material& material) const {
-    if (material.alphaCutoff > 0 || glm::determinant(glm::mat3(model.toWorld)) <= 0) return true;
+    if (material.alphaCutoff > 0) return true;
     // Who means them to be seen has the eye inside.
     if (material.doubleSided && glm::clamp(eye_, model.low, model.high) == eye_) return true;
     if (mesh.solidAbove < -std::numeric_limits<float>::max()) return false;
     return !standsAs(model) || eye_.y <= groundLevel_ || mesh.solidAbove >= groundLevel_ - model.toWorld[3].y;
 }
 
+void Models::endModels(DrawPass& pass) {
+    pass.drawBacks(true);
+    pass.mirrorPlaced(false);
+}
+
+void Models::useBuffersOf(DrawPass& pass, const Model& model) {
+    pass.mirrorPlaced(model.mirrored);
+    pass.setVertices(model.shape->vertices);
+    pass.setIndices(model.shape->indices);
+}
+
 uint32_t Models::simplest(const Model& model, float error) {
     uint32_t mesh = 0;
-    while (mesh + 1 < model.meshes.size() && model.meshes[mesh + 1].error <= error) ++mesh;
+    const std::vector<Mesh>& meshes = model.shape->meshes;
+    while (mesh + 1 < meshes.size() && meshes[mesh + 1].error * model.scale <= error) ++mesh;
     return mesh;
 }
 
@@ -102,6 +114,7 @@ ModelPush Models::pushOf(const Model& model, uint32_t mesh, const Material& mate
     push.lod = mesh;
     push.fade = 1;
     push.colorOther = material.baseColorMap.set;
+    push.mirrored = model.mirrored ? 1 : 0;
     const auto rows = rowsOf(material.baseColorMap);
     push.colorU = rows[0];
     push.colorV = rows[1];
@@ -114,13 +127,12 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
         const uint32_t index = entry.first;  // clang 14 hands no structured binding to a lambda
         const Model& model = entry.second;
         if (!model.seen || (with.drawnOnly && model.groundOnly)) continue;
-        pass.setVertices(model.vertices);
-        pass.setIndices(model.indices);
+        useBuffersOf(pass, model);
         const auto drawMesh = [&](uint32_t which, float fade) {
-            const Mesh& mesh = model.meshes[which];
+            const Mesh& mesh = model.shape->meshes[which];
             for (size_t r = 0; r < mesh.ranges.size(); ++r) {
                 const DrawRange& range = mesh.ranges[r];
-                const Material& material = model.materialOf(range);
+                const Material& material = model.shape->materialOf(range);
                 if (material.blended && with.glassApart) continue;
                 ModelPush push = pushOf(model, which, material, with.walkData ? index : kNoIndex);
                 push.fade = fade;
@@ -135,8 +147,8 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
                     const DrawPass::IndexRange indices{count, range.firstIndex + first, mesh.firstVertex};
                     if (isMapped(material)) return drawMapped(pass, program, with, model, range, indices, push);
                     pass.drawIndexed(program, indices, push,
-                                     {{pictureOr(model.colors, material.baseColorImage, white_), sampler},
-                                      {pictureOr(model.normals, material.normalImage, flat_), sampler},
+                                     {{pictureOr(model.shape->colors, material.baseColorImage, white_), sampler},
+                                      {pictureOr(model.shape->normals, material.normalImage, flat_), sampler},
                                       with.shadow,
                                       with.ground.noiseBinding(quick),
                                       with.ground.siteBinding(quick),
@@ -149,7 +161,7 @@ void Models::draw(DrawPass& pass, const Drawn& with) const {
         };
         overShown(model, drawMesh);
     }
-    pass.drawBacks(true);
+    endModels(pass);
 }
 
 void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fading, const Buffer& frame,
@@ -158,12 +170,11 @@ void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fadi
         const uint32_t index = entry.first;  // clang 14 hands no structured binding to a lambda
         const Model& model = entry.second;
         if (!model.seen || model.groundOnly) continue;
-        pass.setVertices(model.vertices);
-        pass.setIndices(model.indices);
+        useBuffersOf(pass, model);
         overShown(model, [&](uint32_t which, float fade) {
-            const Mesh& mesh = model.meshes[which];
+            const Mesh& mesh = model.shape->meshes[which];
             for (const DrawRange& range : mesh.ranges) {
-                const Material& material = model.materialOf(range);
+                const Material& material = model.shape->materialOf(range);
                 if (cutoffOf(material) > 0 || (material.blended && glassApart)) continue;
                 ModelPush push = pushOf(model, which, material, index);
                 push.fade = fade;
@@ -173,30 +184,31 @@ void Models::drawAhead(DrawPass& pass, const Program& whole, const Program& fadi
             }
         });
     }
-    pass.drawBacks(true);
+    endModels(pass);
 }
 
 void Models::drawDepth(DrawPass& pass, const Program& whole, const Program& cut, const Buffer& frame,
                        float error) const {
     for (const auto& [index, model] : models_) {
         if (model.groundOnly || model.hidden) continue;
-        pass.setVertices(model.vertices);
-        pass.setIndices(model.indices);
+        useBuffersOf(pass, model);
         const uint32_t mesh = simplest(model, error);
-        for (const DrawRange& range : model.meshes[mesh].ranges) {
-            const Material& material = model.materialOf(range);
+        for (const DrawRange& range : model.shape->meshes[mesh].ranges) {
+            const Material& material = model.shape->materialOf(range);
             if (material.transmission > 0) continue;  // glass lets the sun through
-            const DrawPass::IndexRange draw{range.indexCount, range.firstIndex, model.meshes[mesh].firstVertex};
+            const DrawPass::IndexRange draw{range.indexCount, range.firstIndex, model.shape->meshes[mesh].firstVertex};
             ModelPush push = pushOf(model, mesh, material, index);
             if (material.blended) push.alphaCutoff = kBlendCutoff;
             if (push.alphaCutoff > 0)
                 pass.drawIndexed(
                     cut, draw, push,
-                    {{pictureOr(model.colors, material.baseColorImage, white_), samplerOf(material, false)}, frame});
+                    {{pictureOr(model.shape->colors, material.baseColorImage, white_), samplerOf(material, false)},
+                     frame});
             else
                 pass.drawIndexed(whole, draw, push, {frame});
         }
     }
+    endModels(pass);
 }
 
 uint64_t Models::triangles() const {
@@ -206,8 +218,8 @@ uint64_t Models::triangles() const {
     };
     for (const auto& [index, model] : models_) {
         if (!model.seen || model.groundOnly) continue;
-        add(model.meshes[model.shown]);
-        if (model.step < kFadeFrames) add(model.meshes[model.before]);
+        add(model.shape->meshes[model.shown]);
+        if (model.step < kFadeFrames) add(model.shape->meshes[model.before]);
     }
     return sum;
 }

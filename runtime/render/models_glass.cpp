@@ -38,18 +38,18 @@ bool Models::isMapped(const Material& m) {
 
 bool Models::anyMapped() const {
     return std::ranges::any_of(models_,
-                               [](const auto& m) { return std::ranges::any_of(m.second.materials, isMapped); });
+                               [](const auto& m) { return std::ranges::any_of(m.second.shape->materials, isMapped); });
 }
 
 bool Models::anyGlass() const {
     return std::ranges::any_of(
-        models_, [](const auto& m) { return std::ranges::any_of(m.second.materials, &Material::blended); });
+        models_, [](const auto& m) { return std::ranges::any_of(m.second.shape->materials, &Material::blended); });
 }
 
 void Models::planRecords(Plan& plan, Upload& upload) {
-    plan.records.assign(plan.model.materials.size(), Plan::kNone);
+    plan.records.assign(plan.shape.materials.size(), Plan::kNone);
     for (size_t i = 0; i < plan.records.size(); ++i) {
-        const Material& m = plan.model.materials[i];
+        const Material& m = plan.shape.materials[i];
         if (!isMapped(m)) continue;
         const auto normal = rowsOf(m.normalMap), emissive = rowsOf(m.emissiveMap), rough = rowsOf(m.roughnessMap);
         const MaterialRecord record{normal[0],  normal[1],       emissive[0],        emissive[1],
@@ -82,21 +82,21 @@ Models::Panes Models::intoPanes(std::span<const DrawVertex> vertices, const Draw
 
 void Models::drawMapped(DrawPass& pass, const Program& program, const Drawn& with, const Model& model,
                         const DrawRange& range, const DrawPass::IndexRange& indices, const ModelPush& push) const {
-    const Material& material = model.materialOf(range);
+    const Material& material = model.shape->materialOf(range);
     const bool quick = isQuick(with.shading);
     const Sampler& sampler = samplerOf(material, quick);
-    const size_t record = std::min<size_t>(range.material, model.records.size() - 1);
+    const size_t record = std::min<size_t>(range.material, model.shape->records.size() - 1);
     pass.drawIndexed(program, indices, push,
-                     {{pictureOr(model.colors, material.baseColorImage, white_), sampler},
-                      {pictureOr(model.normals, material.normalImage, flat_), sampler},
+                     {{pictureOr(model.shape->colors, material.baseColorImage, white_), sampler},
+                      {pictureOr(model.shape->normals, material.normalImage, flat_), sampler},
                       with.shadow,
                       with.ground.noiseBinding(quick),
                       with.ground.siteBinding(quick),
                       with.ground.pavingBinding(quick),
-                      {pictureOr(model.colors, material.emissiveImage, white_), sampler},
-                      {pictureOr(model.normals, material.roughnessImage, white_), sampler},
+                      {pictureOr(model.shape->colors, material.emissiveImage, white_), sampler},
+                      {pictureOr(model.shape->normals, material.roughnessImage, white_), sampler},
                       with.frame,
-                      model.records[record]});
+                      model.shape->records[record]});
 }
 
 void Models::drawGlass(DrawPass& pass, const Drawn& with, const GlassPrograms& programs, glm::vec3 forward) const {
@@ -112,37 +112,37 @@ void Models::drawGlass(DrawPass& pass, const Drawn& with, const GlassPrograms& p
     for (const auto& [index, model] : models_) {
         if (!model.seen || (with.drawnOnly && model.groundOnly)) continue;
         overShown(model, [&, &m = model, i = index](uint32_t which, float fade) {
-            const Mesh& mesh = m.meshes[which];
+            const Mesh& mesh = m.shape->meshes[which];
             for (size_t r = 0; r < mesh.ranges.size(); ++r)
-                if (m.materialOf(mesh.ranges[r]).blended)
+                if (m.shape->materialOf(mesh.ranges[r]).blended)
                     ranges.push_back({glm::dot(forward, glm::vec3(m.toWorld * glm::vec4(mesh.panes[r].middle, 1))), i,
                                       &m, which, r, fade});
         });
     }
     std::ranges::stable_sort(ranges, [](const Range& a, const Range& b) { return a.depth > b.depth; });
     for (const Range& r : ranges) {
-        const Mesh& mesh = r.model->meshes[r.mesh];
+        const Mesh& mesh = r.model->shape->meshes[r.mesh];
         const DrawRange& range = mesh.ranges[r.range];
-        const Material& material = r.model->materialOf(range);
+        const Material& material = r.model->shape->materialOf(range);
         const size_t order = nearestDirection(glm::transpose(glm::mat3(r.model->toWorld)) * forward);
         ModelPush push = pushOf(*r.model, r.mesh, material, with.walkData ? r.index : kNoIndex);
         push.baseColor = material.baseColor;
         push.fade = r.fade;
-        pass.setVertices(r.model->vertices);
-        pass.setIndices(r.model->indices);
-        pass.drawBacks(material.doubleSided || glm::determinant(glm::mat3(r.model->toWorld)) <= 0);
+        useBuffersOf(pass, *r.model);
+        pass.drawBacks(material.doubleSided);
         const DrawPass::IndexRange indices{
             range.indexCount, mesh.panes[r.range].firstIndex + uint32_t(order) * range.indexCount, mesh.firstVertex};
         if (material.transmission > 0 &&
             (material.baseColorImage >= 0 || glm::vec3(material.baseColor) != glm::vec3(1)))
-            pass.drawIndexed(programs.tint, indices, push,
-                             {{pictureOr(r.model->colors, material.baseColorImage, white_),
-                               samplerOf(material, isQuick(with.shading))},
-                              with.frame,
-                              r.model->records[std::min<size_t>(range.material, r.model->records.size() - 1)]});
+            pass.drawIndexed(
+                programs.tint, indices, push,
+                {{pictureOr(r.model->shape->colors, material.baseColorImage, white_),
+                  samplerOf(material, isQuick(with.shading))},
+                 with.frame,
+                 r.model->shape->records[std::min<size_t>(range.material, r.model->shape->records.size() - 1)]});
         drawMapped(pass, programs.glass, with, *r.model, range, indices, push);
     }
-    pass.drawBacks(true);
+    endModels(pass);
 }
 
 }  // namespace espalier

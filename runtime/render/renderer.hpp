@@ -39,6 +39,11 @@ class Renderer {
         unprepare();
         models_.set(index, std::move(plan), upload);
     }
+    // The surface `like`, which is there, at another place, too.
+    void setSurfaceLike(uint32_t index, uint32_t like, const glm::mat4& toWorld) {
+        unprepare();
+        models_.setLike(index, like, toWorld);
+    }
     void removeSurface(uint32_t index) {
         unprepare();
         models_.remove(index);

@@ -117,6 +117,10 @@ dvec3 ContactView::at(uint32_t triangle, uint32_t corner) const {
 }
 
 dvec3 ContactView::normal(uint32_t t) const {
+    return winding(t) * outward;
+}
+
+dvec3 ContactView::winding(uint32_t t) const {
     dvec3 a = at(t, 0), n = glm::cross(at(t, 1) - a, at(t, 2) - a);
     double length = glm::length(n);
     return length > 0 ? n / length : dvec3(0);
@@ -124,12 +128,12 @@ dvec3 ContactView::normal(uint32_t t) const {
 
 ContactShape ContactView::shape(uint32_t t, double scale) const {
     ContactShape s;
-    s.normal = normal(t);
+    s.normal = winding(t);
     for (uint32_t k = 0; k < 3; ++k) {
         s.p[k] = at(t, k);
         s.reach[k] = mesh.reach[mesh.triangles[t].point[k]] * scale;
         uint32_t twin = mesh.twin[t * 3 + k];
-        s.outline[k] = twin == kNoIndex || glm::dot(s.normal, normal(twin / 3)) < kOutlineCosine;
+        s.outline[k] = twin == kNoIndex || glm::dot(s.normal, winding(twin / 3)) < kOutlineCosine;
     }
     return s;
 }

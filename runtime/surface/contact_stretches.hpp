@@ -15,9 +15,11 @@ struct ContactView {
     glm::dmat4 map{1};
     bool identity = true;
     double borderShift = 0;  // UV
+    double outward = 1;      // -1: the map mirrors, which turns triangles around
 
     glm::dvec3 at(uint32_t triangle, uint32_t corner) const;
-    glm::dvec3 normal(uint32_t triangle) const;  // unit; 0 of a triangle without area
+    glm::dvec3 normal(uint32_t triangle) const;   // unit, outward; 0 of a triangle without area
+    glm::dvec3 winding(uint32_t triangle) const;  // likewise, from where its corners go around to the left
     // scale: of the mesh's metres in the search's.
     ContactShape shape(uint32_t triangle, double scale) const;
     // What a stretch belongs to, so that the triangles on both sides of an edge find it once.

@@ -86,8 +86,10 @@ class Assembler {
     Contact make(const Flap& f, const Flap& g, const Half& from, const Half& to) const {
         const ContactMesh &mesh = flaps_.viewOf(f).mesh, &other = flaps_.viewOf(g).mesh;
         uint32_t chart = mesh.triangles[f.triangle].chart, target = other.triangles[g.triangle].chart;
-        // As the walk works it out; what differs from that is turned over.
-        bool expected = from.insideLeft == (mesh.orientation[chart] * other.orientation[target] < 0);
+        // As the walk works it out; what differs from that is turned over, or mirrored.
+        const bool expected = from.insideLeft == (mesh.orientation[chart] * other.orientation[target] < 0);
+        const bool mirrored = flaps_.viewOf(f).outward * flaps_.viewOf(g).outward < 0;
+        const bool turned = (expected != to.insideLeft) != mirrored;
         Contact contact{};
         Crossing& c = contact.crossing;
         c.a = glm::vec2(from.a), c.b = glm::vec2(from.b);
@@ -95,12 +97,14 @@ class Assembler {
         c.edge = from.edge;
         c.targetEdge = to.edge;
         c.target = 0xFFFF0000u | target;
-        c.flags = kCrossingContact | (from.insideLeft ? kCrossingInsideLeft : 0u) |
-                  (expected != to.insideLeft ? kCrossingTurned : 0u) | chart << 16;
+        c.flags = kCrossingContact | (from.insideLeft ? kCrossingInsideLeft : 0u) | (turned ? kCrossingTurned : 0u) |
+                  (mirrored ? kCrossingMirrored : 0u) | chart << 16;
         if (!flaps_.ofOneMesh()) {
             const auto& side = sideOf(g);
-            double over = expected != to.insideLeft ? -1 : 1;
-            c.flags |= packCrossingJoint(jointOf(g.normal * over, f.normal, side.b - side.a));
+            const dvec3 outside = g.normal * (turned ? -1.0 : 1.0);
+            // Of the far one's space, where left is right if that is mirrored here.
+            const float joint = jointOf(outside, f.normal, side.b - side.a) * float(flaps_.viewOf(g).outward);
+            c.flags |= packCrossingJoint(joint);
         }
         contact.from = f.triangle;
         contact.to = g.triangle;
@@ -208,7 +212,8 @@ std::vector<Contact> contactsWithin(const ContactMesh& mesh, const BoxTree& tree
 ContactsBetween contactsBetween(const ContactMesh& a, const BoxTree& treeA, const ContactMesh& b, const BoxTree& treeB,
                                 const ContactOptions& options) {
     const ContactView viewA{a, dmat4(1), true, options.borderShift},
-        viewB{b, options.toA, false, options.otherBorderShift};
+        viewB{b, options.toA, false, options.otherBorderShift,
+              glm::determinant(glm::dmat3(options.toA)) < 0 ? -1.0 : 1.0};
     ContactsBetween out;
     Assembler assembler(viewA, viewB, options.tolerance);
     for (const ContactStretch& s : stretchesBetween(viewA, treeA, viewB, treeB, options.tolerance))

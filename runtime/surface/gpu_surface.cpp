@@ -18,6 +18,7 @@ void setAddress(Buf& buffer, uint64_t address) {
 
 // Arrays begin at multiples of this, so that kernels may read them as texels.
 constexpr size_t kAlignment = 16;
+constexpr uint32_t kTileTexels = 64;  // 8x8, of which texelIndex numbers all before the next tile's
 
 template <class Buf>
 uint64_t addressOf(const Buf& buffer) {
@@ -48,57 +49,79 @@ size_t sizeOf(const SurfaceData& data) {
     return sum;
 }
 
-// All lists and crossings, those of the file first; sets their addresses in `ref`.
-Result<Buffer> makeLists(Device& device, const SurfaceData& base, const std::vector<LevelPatch>& patches,
-                         std::span<const Crossing> added, SurfaceRef& ref) {
-    std::vector<std::byte> bytes;
-    auto append = [&](const auto& values) {
-        const auto view = std::as_bytes(std::span(values));
-        bytes.insert(bytes.end(), view.begin(), view.end());
-    };
-    std::vector<size_t> begins;
-    for (size_t l = 0; l < patches.size(); ++l) {
-        begins.push_back(bytes.size());
-        append(base.levels[l].crossingRefs);
-        append(patches[l].added);
-        bytes.resize((bytes.size() + kAlignment - 1) / kAlignment * kAlignment);
+// Arrays one after the other, as they will lie in one buffer.
+class Arrays {
+  public:
+    // The byte at which the values begin.
+    template <class T>
+    size_t append(std::span<const T> values) {
+        bytes_.resize((bytes_.size() + kAlignment - 1) / kAlignment * kAlignment);
+        const size_t at = bytes_.size();
+        const auto view = std::as_bytes(values);
+        bytes_.insert(bytes_.end(), view.begin(), view.end());
+        return at;
     }
-    begins.push_back(bytes.size());
-    append(base.crossings);
-    append(added);
-    Result<Buffer> buffer = makeBuffer(device, "surface contacts", std::span<const std::byte>(bytes));
-    if (!buffer) return buffer;
-    for (size_t l = 0; l < patches.size(); ++l) setAddress(ref.levels[l].crossingRefs, buffer->address() + begins[l]);
-    setAddress(ref.crossings, buffer->address() + begins.back());
-    ref.crossingCount += uint32_t(added.size());
-    return buffer;
-}
+    template <class T>
+    size_t append(const std::vector<T>& values) {
+        return append(std::span<const T>(values));
+    }
+    std::span<const std::byte> bytes() const { return bytes_; }
+    uint64_t* wordsAt(size_t byte) { return reinterpret_cast<uint64_t*>(bytes_.data() + byte); }
 
-// Writes 8×8 tiles of a level as the patch has them: texels and heads, up to four that follow each other in one go, as
-// many as fit into the recording itself.
-Status writeTiles(Commands& commands, const Buffer& data, const SurfaceLevel& place, const SurfaceLevelData& base,
-                  const LevelPatch& patch, const std::vector<uint32_t>& tiles) {
+  private:
+    std::vector<std::byte> bytes_;
+};
+
+// Where a touched level's arrays begin in the buffer of what is added; tables lead to tiles that are still to be
+// placed.
+struct TouchedLevel {
+    size_t refs = 0, texelTable = 0, headTable = 0;
+    size_t texels = 0, heads = 0;  // of its own tiles
+    std::vector<uint32_t> tiles;   // which these are, ascending
+};
+
+// The tiles of a level that the patch changes, with the patch.
+TouchedLevel appendLevel(Arrays& arrays, const SurfaceLevelData& base, const LevelPatch& patch) {
+    TouchedLevel level;
+    for (const uint32_t texel : patch.texels)
+        if (level.tiles.empty() || level.tiles.back() != texel / kTileTexels)
+            level.tiles.push_back(texel / kTileTexels);
     std::vector<Texel> texels;
     std::vector<uint32_t> heads;
     size_t next = 0;
-    for (size_t i = 0; i < tiles.size();) {
-        size_t end = i + 1;
-        while (end < tiles.size() && end < i + 4 && tiles[end] == tiles[end - 1] + 1) ++end;
-        const size_t first = size_t(tiles[i]) * 64, count = (end - i) * 64;
-        texels.assign(base.texels.begin() + std::ptrdiff_t(first), base.texels.begin() + std::ptrdiff_t(first + count));
-        heads.assign(base.crossingHead.begin() + std::ptrdiff_t(first),
-                     base.crossingHead.begin() + std::ptrdiff_t(first + count));
-        for (; next < patch.texels.size() && patch.texels[next] < first + count; ++next) {
-            texels[patch.texels[next] - first].bits = patch.bits[next];
-            heads[patch.texels[next] - first] = patch.heads[next];
+    for (const uint32_t tile : level.tiles) {
+        const size_t first = size_t(tile) * kTileTexels, begin = texels.size();
+        texels.insert(texels.end(), &base.texels[first], &base.texels[first] + kTileTexels);
+        heads.insert(heads.end(), &base.crossingHead[first], &base.crossingHead[first] + kTileTexels);
+        for (; next < patch.texels.size() && patch.texels[next] < first + kTileTexels; ++next) {
+            texels[begin + patch.texels[next] - first].bits = patch.bits[next];
+            heads[begin + patch.texels[next] - first] = patch.heads[next];
         }
-        const uint64_t texelsAt = addressOf(place.texels) - data.address() + first * sizeof(Texel);
-        const uint64_t headsAt = addressOf(place.crossingHead) - data.address() + first * 4;
-        if (Status s = commands.upload(data, texels, texelsAt); !s) return s;
-        if (Status s = commands.upload(data, heads, headsAt); !s) return s;
-        i = end;
     }
-    return Done{};
+    std::vector<uint32_t> refs = base.crossingRefs;
+    refs.insert(refs.end(), patch.added.begin(), patch.added.end());
+    level.refs = arrays.append(refs);
+    level.texels = arrays.append(texels);
+    level.heads = arrays.append(heads);
+    const std::vector<uint64_t> table(base.texels.size() / kTileTexels);
+    level.texelTable = arrays.append(table);
+    level.headTable = arrays.append(table);
+    return level;
+}
+
+// Each tile's address: where it was baked, or in the buffer at `added` that the arrays will lie in.
+void fillTables(Arrays& arrays, const TouchedLevel& level, const SurfaceLevel& baked, uint64_t added) {
+    uint64_t* const texels = arrays.wordsAt(level.texelTable);
+    uint64_t* const heads = arrays.wordsAt(level.headTable);
+    const uint64_t bakedTexels = addressOf(baked.texels), bakedHeads = addressOf(baked.crossingHead);
+    for (uint32_t tile = 0; tile < baked.size * baked.size / kTileTexels; ++tile) {
+        texels[tile] = bakedTexels + uint64_t(tile) * kTileTexels * sizeof(Texel);
+        heads[tile] = bakedHeads + uint64_t(tile) * kTileTexels * sizeof(uint32_t);
+    }
+    for (size_t i = 0; i < level.tiles.size(); ++i) {
+        texels[level.tiles[i]] = added + level.texels + i * kTileTexels * sizeof(Texel);
+        heads[level.tiles[i]] = added + level.heads + i * kTileTexels * sizeof(uint32_t);
+    }
 }
 
 }  // namespace
@@ -135,12 +158,18 @@ GpuSurface::Plan GpuSurface::plan(const SurfaceData& data, Upload& upload) {
     return plan;
 }
 
-GpuSurface::GpuSurface(const Plan& plan, Upload& upload)
-    : ref_(plan.ref), hash_(plan.hash), data_(upload.takeBuffer(plan.buffer)), refCounts_(plan.refCounts) {
+GpuSurface::GpuSurface(const Plan& plan, Upload& upload) {
+    auto baked = std::make_shared<Baked>();
+    baked->ref = plan.ref;
+    baked->hash = plan.hash;
+    baked->data = upload.takeBuffer(plan.buffer);
+    baked->refCounts = plan.refCounts;
     for (const Plan::Array& array : plan.arrays) {
-        const uint64_t at = data_.address() + array.offset;
-        std::memcpy(reinterpret_cast<std::byte*>(&ref_) + array.address, &at, 8);
+        const uint64_t at = baked->data.address() + array.offset;
+        std::memcpy(reinterpret_cast<std::byte*>(&baked->ref) + array.address, &at, 8);
     }
+    baked_ = std::move(baked);
+    ref_ = baked_->ref;
 }
 
 Result<GpuSurface> GpuSurface::create(Device& device, const SurfaceData& data) {
@@ -151,75 +180,102 @@ Result<GpuSurface> GpuSurface::create(Device& device, const SurfaceData& data) {
 }
 
 SurfaceRef GpuSurface::ref(const glm::mat4& toWorld) const {
-    SurfaceRef ref = lists_ ? listed_ : ref_;
+    SurfaceRef ref = ref_;
     placeSurface(ref, toWorld);
     return ref;
 }
 
 Result<std::vector<Texel>> GpuSurface::readTexels(Device& device, size_t level) const {
     const SurfaceLevel& from = ref_.levels[level];
-    return readArray<Texel>(device, data_, from.texels, size_t(from.size) * from.size);
+    const size_t count = size_t(from.size) * from.size;
+    Result<std::vector<Texel>> texels = readArray<Texel>(device, baked_->data, from.texels, count);
+    if (!texels || !from.touched) return texels;
+    Result<std::vector<uint64_t>> tiles = readArray<uint64_t>(device, added_, from.texelTiles, count / kTileTexels);
+    if (!tiles) return tiles.failure();
+    // Its own tiles are few, and lie one after the other.
+    const uint64_t begin = added_.address(), end = begin + added_.size();
+    std::vector<size_t> own;
+    for (size_t tile = 0; tile < tiles->size(); ++tile)
+        if ((*tiles)[tile] >= begin && (*tiles)[tile] < end) own.push_back(tile);
+    if (own.empty()) return texels;
+    Result<std::vector<Texel>> changed =
+        readArray<Texel>(device, added_, (*tiles)[own.front()], own.size() * kTileTexels);
+    if (!changed) return changed;
+    for (size_t i = 0; i < own.size(); ++i)
+        std::copy_n(changed->begin() + std::ptrdiff_t(i * kTileTexels), kTileTexels,
+                    texels->begin() + std::ptrdiff_t(own[i] * kTileTexels));
+    return texels;
 }
 
 Result<std::vector<Crossing>> GpuSurface::readCrossings(Device& device, size_t count) const {
-    return lists_ ? readArray<Crossing>(device, lists_, listed_.crossings, count)
-                  : readArray<Crossing>(device, data_, ref_.crossings, count);
+    return readArray<Crossing>(device, added_ ? added_ : baked_->data, ref_.crossings, count);
 }
 
 Status GpuSurface::readForFields(Device& device, SurfaceData& out) const {
-    const SurfaceLevel& finest = ref_.levels[0];
+    const SurfaceRef& from = baked_->ref;
+    const SurfaceLevel& finest = from.levels[0];
     const size_t texels = size_t(finest.size) * finest.size;
+    const Buffer& data = baked_->data;
     out.levels.resize(1);
     out.levels[0].size = finest.size;
-    return allDone({assign(out.triangles, readArray<TrianglePlane>(device, data_, ref_.triangles, ref_.triangleCount)),
-                    assign(out.levels[0].texels, readArray<Texel>(device, data_, finest.texels, texels)),
-                    assign(out.levels[0].aux, readArray<TexelAux>(device, data_, finest.aux, texels))});
+    return allDone({assign(out.triangles, readArray<TrianglePlane>(device, data, from.triangles, from.triangleCount)),
+                    assign(out.levels[0].texels, readArray<Texel>(device, data, finest.texels, texels)),
+                    assign(out.levels[0].aux, readArray<TexelAux>(device, data, finest.aux, texels))});
 }
 
 Status GpuSurface::readBack(Device& device, SurfaceData& out) const {
     auto read = [&](auto& values, auto buffer, size_t count) -> Status {
         using T = typename std::decay_t<decltype(values)>::value_type;
-        return assign(values, readArray<T>(device, data_, buffer, count));
+        return assign(values, readArray<T>(device, baked_->data, buffer, count));
     };
-    out.levels.resize(ref_.levelCount);
+    out.levels.resize(baked_->ref.levelCount);
     for (size_t i = 0; i < out.levels.size(); ++i) {
-        const SurfaceLevel& from = ref_.levels[i];
+        const SurfaceLevel& from = baked_->ref.levels[i];
         SurfaceLevelData& level = out.levels[i];
         const size_t texels = size_t(from.size) * from.size;
         level.size = from.size;
         if (Status s = read(level.texels, from.texels, texels); !s) return s;
         if (Status s = read(level.crossingHead, from.crossingHead, texels); !s) return s;
-        if (Status s = read(level.crossingRefs, from.crossingRefs, refCounts_[i]); !s) return s;
+        if (Status s = read(level.crossingRefs, from.crossingRefs, baked_->refCounts[i]); !s) return s;
     }
-    return read(out.crossings, ref_.crossings, ref_.crossingCount);
+    return read(out.crossings, baked_->ref.crossings, baked_->ref.crossingCount);
 }
 
 Status GpuSurface::addCrossings(Device& device, const SurfaceData& base, std::span<const Crossing> added,
                                 const TexelSets& buried) {
+    if (added.empty() && buried.empty()) {
+        added_ = {};
+        ref_ = baked_->ref;
+        return Done{};
+    }
     Result<std::vector<LevelPatch>> patches = patchLevels(base, added, buried);
     if (!patches) return patches.failure();
-    SurfaceRef listed = ref_;
-    Buffer lists;
-    if (!added.empty()) {
-        if (Status made = assign(lists, makeLists(device, base, *patches, added, listed)); !made) return made.failure();
+    Arrays arrays;
+    std::vector<TouchedLevel> levels;
+    for (size_t l = 0; l < patches->size(); ++l) levels.push_back(appendLevel(arrays, base.levels[l], (*patches)[l]));
+    std::vector<Crossing> crossings = base.crossings;
+    crossings.insert(crossings.end(), added.begin(), added.end());
+    const size_t crossingsAt = arrays.append(crossings);
+    Result<Buffer> buffer = Buffer::create(device, "surface contacts", arrays.bytes().size());
+    if (!buffer) return buffer.failure();
+    SurfaceRef ref = baked_->ref;
+    const uint64_t begin = buffer->address();
+    for (size_t l = 0; l < levels.size(); ++l) {
+        SurfaceLevel& to = ref.levels[l];
+        fillTables(arrays, levels[l], baked_->ref.levels[l], begin);
+        setAddress(to.crossingRefs, begin + levels[l].refs);
+        setAddress(to.texelTiles, begin + levels[l].texelTable);
+        setAddress(to.headTiles, begin + levels[l].headTable);
+        to.touched = 1;
     }
+    setAddress(ref.crossings, begin + crossingsAt);
+    ref.crossingCount += uint32_t(added.size());
     Result<Commands> commands = Commands::begin(device, "contacts");
     if (!commands) return commands.failure();
-    std::vector<std::vector<uint32_t>> tiles(base.levels.size());
-    for (size_t l = 0; l < tiles.size(); ++l) {
-        const LevelPatch& patch = (*patches)[l];
-        for (uint32_t texel : patch.texels)
-            if (tiles[l].empty() || tiles[l].back() != texel >> 6) tiles[l].push_back(texel >> 6);
-        std::vector<uint32_t> stale = tiles[l];
-        if (l < patched_.size()) stale.insert(stale.end(), patched_[l].begin(), patched_[l].end());
-        std::sort(stale.begin(), stale.end());
-        stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
-        if (Status s = writeTiles(*commands, data_, ref_.levels[l], base.levels[l], patch, stale); !s) return s;
-    }
+    if (Status uploaded = commands->upload(*buffer, arrays.bytes(), 0); !uploaded) return uploaded;
     if (Status done = commands->finish(); !done) return done;
-    lists_ = std::move(lists);
-    listed_ = listed;
-    patched_ = std::move(tiles);
+    added_ = std::move(*buffer);
+    ref_ = ref;
     return Done{};
 }
 

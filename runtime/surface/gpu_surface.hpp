@@ -2,6 +2,8 @@
 
 // A baked surface on the GPU: what a walk reads. The mesh to draw and its pictures belong to render.
 
+#include <memory>
+
 #include "runtime/gpu/upload.hpp"
 #include "runtime/surface/added_crossings.hpp"
 #include "runtime/surface/surface.hpp"
@@ -18,9 +20,11 @@ class GpuSurface {
     struct Plan;
     static Plan plan(const SurfaceData& data, Upload& upload);
     GpuSurface(const Plan& plan, Upload& upload);
+    // The same once more, for another place: shares what was uploaded, and nothing has been added to it.
+    GpuSurface another() const { return GpuSurface(baked_); }
 
     // The record for a table of surfaces: device addresses, valid while this lives, and the place in the world.
-    // toWorld must move, turn and scale evenly.
+    // toWorld must move, turn and scale evenly; it may mirror.
     SurfaceRef ref(const glm::mat4& toWorld = glm::mat4(1)) const;
 
     // The texels of a level as walks read them now, what others bury included (texelIndex order); waits for the GPU.
@@ -37,18 +41,24 @@ class GpuSurface {
     Status addCrossings(Device& device, const SurfaceData& base, std::span<const Crossing> added,
                         const TexelSets& buried = {});
 
-    uint64_t hash() const { return hash_; }
-    uint64_t sizeBytes() const { return data_.size() + lists_.size(); }
-    explicit operator bool() const { return bool(data_); }
+    uint64_t hash() const { return baked_->hash; }
+    uint64_t bakedBytes() const { return baked_->data.size(); }  // shared by all places
+    uint64_t ownBytes() const { return added_.size(); }
+    bool shares(const GpuSurface& other) const { return baked_ == other.baked_; }
+    explicit operator bool() const { return bool(baked_); }
 
   private:
-    SurfaceRef ref_{};
-    uint64_t hash_ = 0;
-    Buffer data_;
-    Buffer lists_;                                // while crossings are added: lists of all levels and all crossings
-    std::vector<uint32_t> refCounts_;             // per level, as uploaded
-    std::vector<std::vector<uint32_t>> patched_;  // per level: tiles that differ from what was uploaded
-    SurfaceRef listed_{};                         // ref_ with the addresses in lists_
+    struct Baked {
+        SurfaceRef ref{};
+        uint64_t hash = 0;
+        Buffer data;
+        std::vector<uint32_t> refCounts;  // per level
+    };
+    explicit GpuSurface(std::shared_ptr<const Baked> baked) : baked_(std::move(baked)), ref_(baked_->ref) {}
+
+    std::shared_ptr<const Baked> baked_;  // what was uploaded; nothing writes to it
+    Buffer added_;                        // this place's own tiles, lists and crossings; none: it has none
+    SurfaceRef ref_{};                    // baked_->ref with the addresses in added_
 };
 
 struct GpuSurface::Plan {
@@ -65,6 +75,10 @@ struct GpuSurface::Plan {
 
 // The even scale of a placement, as growth reads it.
 float scaleOf(const glm::mat4& toWorld);
+// Whether a placement turns left into right.
+inline bool isMirrored(const glm::mat4& toWorld) {
+    return glm::determinant(glm::mat3(toWorld)) < 0;
+}
 // Puts a placement into a surface's record: rows of the matrix, and its even scale.
 void placeSurface(SurfaceRef& ref, const glm::mat4& toWorld);
 

@@ -56,8 +56,12 @@ SurfaceRef surfaceRef(const SurfaceData& data, float scale) {
     SurfaceRef ref{};
     for (size_t i = 0; i < data.levels.size() && i < kMaxLevels; ++i) {
         const SurfaceLevelData& level = data.levels[i];
-        ref.levels[i] = {{address(level.texels)},       {address(level.aux)}, {address(level.crossingHead)},
-                         {address(level.crossingRefs)}, level.size,           0};
+        SurfaceLevel& to = ref.levels[i];
+        to.texels = {address(level.texels)};
+        to.aux = {address(level.aux)};
+        to.crossingHead = {address(level.crossingHead)};
+        to.crossingRefs = {address(level.crossingRefs)};
+        to.size = level.size;
     }
     ref.crossings = {address(data.crossings)};
     ref.charts = {address(data.charts)};

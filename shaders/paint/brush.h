@@ -49,9 +49,10 @@ struct DabRecord {
 };
 STATIC_SIZE(DabRecord, 32);
 
-// A layer over a placed surface as the kernels get it, push constants of 120 bytes.
+// A layer over a placed surface as the kernels get it, push constants of 128 bytes.
 struct PaintEnv {
-    TexelBuf texels;           // of the surface's finest level
+    TexelBuf texels;           // of the surface's finest level, as baked
+    TexelTiles texelTiles;     // where others touch it: the placement's own; else none
     TexelAuxBuf aux;
     FloatBuf layer;
     UintBuf blocks;            // those to be painted
@@ -64,7 +65,7 @@ struct PaintEnv {
     UintBuf slots;             // [i]: which of the stroke's blocks block blocks[i] is
     UintBuf places;            // see smooth_records.h
 };
-STATIC_SIZE(PaintEnv, 120);
+STATIC_SIZE(PaintEnv, 128);
 
 // 1 within [low, high], 0 a fade beyond; smooth between.
 FN float limitWeight(float v, float low, float high, float per) {

@@ -15,6 +15,7 @@ layout(binding = 0, scalar) uniform Stroke {
     DabRecord dabs[kDabsAtOnce];
 };
 #include "shaders/paint/place.glsl"
+#include "shaders/paint/texel_bits.glsl"
 
 // Of several values: a mean is rounded, but lies between them, and is what all of them are.
 struct Mean {
@@ -38,7 +39,7 @@ bool between(uint place, out float value) {
     for (uint k = 0u; k < 4u; ++k) {
         uint i = texelIndex(env.size, low.x + (k & 1u), low.y + (k >> 1u));
         float w = ((k & 1u) != 0u ? f.x : 1.0 - f.x) * (k >> 1u != 0u ? f.y : 1.0 - f.y) + 1e-3;
-        if (texelClass(env.texels.v[i].bits) == kTexelInner) take(m, env.layer.v[i], w);
+        if (texelClass(bitsAt(i)) == kTexelInner) take(m, env.layer.v[i], w);
     }
     value = taken(m);
     return m.weight > 0.0;
@@ -75,7 +76,7 @@ void main() {
     uint i = env.blocks.v[item / kBlockTexels] * kBlockTexels + inside;
     bool gutters = brush.gutters != 0u;
     if (!gutters) UintBuf(uint64_t(env.result)).v[item] = kBlocksUntouched;
-    uint kind = texelClass(env.texels.v[i].bits);
+    uint kind = texelClass(bitsAt(i));
     if (kind == kTexelEmpty || gutters != (kind != kTexelInner)) return;
     vec3 n = vec3(0.0);
     if ((brush.flags & (kBrushSlope | kBrushFront)) != 0u) n = worldNormal(env.aux.v[i].normal);

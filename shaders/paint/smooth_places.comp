@@ -42,7 +42,7 @@ uint walkerOfQuad(uint texel, uint chart) {
     uint begin = (texel >> 1u & 1u) | (texel >> 3u & 2u);
     for (uint i = 0u; i < 4u; ++i) {
         uint k = (begin + i) & 3u;
-        uint bits = env.texels.v[quad + (k & 1u) + (k >> 1u) * 8u].bits;
+        uint bits = bitsAt(quad + (k & 1u) + (k >> 1u) * 8u);
         if (texelClass(bits) == kTexelInner && texelChart(bits) == chart) return k;
     }
     return begin;
@@ -51,7 +51,7 @@ uint walkerOfQuad(uint texel, uint chart) {
 void main() {
     uint item = itemIndex();
     if (item >= env.count * kBlockTexels) return;
-    uint bits = env.texels.v[texelOf(item)].bits;
+    uint bits = bitsAt(texelOf(item));
     uint kind = texelClass(bits);
     if (kind == kTexelEmpty) return;
     bool inner = kind == kTexelInner;

@@ -16,7 +16,8 @@ CONST_UINT(kPlacesOfQuad, 0xFFFFFFF0u);
 CONST_FLOAT(kQuadReach, 6.0f);  // texels: for ways as long as this a quad's texels may look at the same places
 
 struct PlacesEnv {
-    TexelBuf texels;  // of the surface's finest level
+    TexelBuf texels;  // of the surface's finest level, as baked
+    TexelTiles texelTiles;  // where others touch it: the placement's own; else none
     UintBuf blocks;   // [count]
     UintBuf places;   // of blocks[0]
     UintBuf walkers;  // [0]: how many texels must walk; then which, 64 * i + texel of block blocks[i]
@@ -28,7 +29,7 @@ struct PlacesEnv {
     uint size;   // texels a side
     uint quads;  // 1: reach is kQuadReach or more
 };
-STATIC_SIZE(PlacesEnv, 64);
+STATIC_SIZE(PlacesEnv, 72);
 
 ESPALIER_END
 #endif

@@ -47,7 +47,7 @@ uint farSide(uvec2 at, Texel texel) {
         ivec2 offset = ivec2(int(k % 5u) - 2, int(k / 5u) - 2);
         ivec2 there = ivec2(at) + offset;
         if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, ivec2(int(env.size))))) continue;
-        uint bits = env.texels.v[texelIndex(env.size, uint(there.x), uint(there.y))].bits;
+        uint bits = bitsAt(texelIndex(env.size, uint(there.x), uint(there.y)));
         float d = float(offset.x * offset.x + offset.y * offset.y);
         if (texelClass(bits) != kTexelInner || texelChart(bits) != texelChart(texel.bits) || d >= best) continue;
         best = d;
@@ -67,6 +67,7 @@ void main() {
     if (listed >= env.walkers.v[0]) return;
     uint item = env.walkers.v[1u + listed];
     Texel texel = env.texels.v[texelOf(item)];
+    texel.bits = bitsAt(texelOf(item));
     uvec2 at = whereIs(texelOf(item));
     if (texelClass(texel.bits) == kTexelInner)
         walked(at, texelChart(texel.bits), placesOf(item));

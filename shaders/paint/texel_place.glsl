@@ -1,4 +1,6 @@
 // An invocation's texel and its places. Included after `env`, a PlacesEnv, is declared.
+#include "shaders/paint/texel_bits.glsl"
+
 uint texelOf(uint item) { return env.blocks.v[item / kBlockTexels] * kBlockTexels + item % kBlockTexels; }
 uint placesOf(uint item) { return item / kBlockTexels * (kSmoothPlaces * kBlockTexels) + item % kBlockTexels; }
 

@@ -83,9 +83,10 @@ struct ModelPush {
     float fade;              // 1: all pixels; above 0: this share of them; below: those that -fade leaves out
     uint lod;                // 0: the mesh; then its coarser ones
     uint colorOther;         // 1: the base colour is looked up in the second UV set
+    uint mirrored;           // 1: by toWorld
     vec3 colorU, colorV;     // rows by which (u, v, 1) of it are multiplied; read by programs of such materials only
 };
-STATIC_SIZE(ModelPush, 116);
+STATIC_SIZE(ModelPush, 120);
 
 // What few materials have: maps of their textures, as ModelPush has that of the base colour, light of their own, metal.
 struct MaterialRecord {

@@ -1,6 +1,7 @@
 // glTF base colour and normal map under sun and sky; or what the other views ask for. ESPALIER_MAPPED: each texture is
 // looked up by UVs of its own, and the material may shine or mirror. ESPALIER_GLASS: what lies behind is seen through it.
 #include "shaders/render/light.glsl"
+#include "shaders/shared/surface_lookup.h"
 #include "shaders/render/meadow.glsl"
 
 layout(push_constant, scalar) uniform Data { ModelPush push; };
@@ -50,9 +51,10 @@ uint walkTexel(uint size) {
 }
 
 // Darkens what is no ground: within a chart only texels that others bury are links without a list.
-vec3 withBuried(vec3 shown, SurfaceLevel level) {
-    uint at = walkTexel(level.size);
-    bool buried = texelClass(level.texels.v[at].bits) == kTexelLink && (level.crossingHead.v[at] & 255u) == 0u;
+vec3 withBuried(vec3 shown, uint level) {
+    uint at = walkTexel(levelSize(frame.surfaces, push.surface, level));
+    bool buried = texelClass(readTexel(frame.surfaces, push.surface, level, at).bits) == kTexelLink &&
+                  (readHead(frame.surfaces, push.surface, level, at) & 255u) == 0u;
     return buried ? shown * 0.3 : shown;
 }
 
@@ -78,20 +80,19 @@ vec4 otherView(vec3 n) {
     if (view == kViewNormals) return stored(n * 0.5 + 0.5, 0.0);
     vec3 shown = view == kViewLod ? lodColor(push.lod) : vec3(0.5);
     if (push.surface != kNoIndex && view == kViewCharts) {
-        SurfaceRef surface = frame.surfaces.v[push.surface];
-        SurfaceLevel level = surface.levels[min(frame.layer, surface.levelCount - 1u)];
-        uint at = walkTexel(level.size);
-        uint bits = level.texels.v[at].bits;
+        uint level = min(frame.layer, frame.surfaces.v[push.surface].levelCount - 1u);
+        uint at = walkTexel(levelSize(frame.surfaces, push.surface, level));
+        uint bits = readTexel(frame.surfaces, push.surface, level, at).bits;
         shown = texelClass(bits) == kTexelEmpty ? vec3(0.02) : chartColor(texelChart(bits));
         // Where links pass; and, on coarse levels, which texel is which.
-        if ((level.crossingHead.v[at] & 255u) != 0u) shown = mix(shown, vec3(1.0), 0.6);
+        if ((readHead(frame.surfaces, push.surface, level, at) & 255u) != 0u) shown = mix(shown, vec3(1.0), 0.6);
         if (frame.layer > 0u && ((at ^ (at >> 3u)) & 1u) != 0u) shown *= 0.8;
         shown = withBuried(shown, level);
     } else if (push.surface != kNoIndex && view == kViewLayer && frame.layer != kNoIndex) {
         uint layer = frame.layer;
         shown = isColourLayers(layer) ? vec3(painted(layer & 255u), painted((layer >> 8u) & 255u), painted((layer >> 16u) & 255u)) :
                 layerColor(painted(layer));
-        shown = withBuried(shown, frame.surfaces.v[push.surface].levels[0]);
+        shown = withBuried(shown, 0u);
     }
     return diagnostic(shown, n);
 }

@@ -38,7 +38,7 @@ void main() {
     position = at;
     normal = vec3(dot(push.toWorld[0].xyz, vertexNormal), dot(push.toWorld[1].xyz, vertexNormal), dot(push.toWorld[2].xyz, vertexNormal));
     tangent = vec4(dot(push.toWorld[0].xyz, vertexTangent.xyz), dot(push.toWorld[1].xyz, vertexTangent.xyz),
-                   dot(push.toWorld[2].xyz, vertexTangent.xyz), vertexTangent.w);
+                   dot(push.toWorld[2].xyz, vertexTangent.xyz), push.mirrored != 0u ? -vertexTangent.w : vertexTangent.w);
     uvs = vertexUvs;
     tint = vertexColour;
 #ifdef ESPALIER_MAPPED

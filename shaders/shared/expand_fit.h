@@ -40,7 +40,8 @@ FN void sumJoint(ExpandEnv env, uint branch) {
     uint joint = env.chunks.v[chunk].previousNode;
     if (joint == kNoIndex) return;
     uint first = env.chunks.v[chunk].firstNode;
-    vec3 d = segmentDirection(env.nodes.v[joint].position, env.nodes.v[first].position) * 1048576.0f;
+    vec3 from = readPosition(env, joint);
+    vec3 d = segmentDirection(from, readPositionFrom(env, first, env.nodes.v[joint].place)) * 1048576.0f;
     uint at = kDensityCells + 3u * joint;
     atomicAdd(env.density.v[at], uint(int(d.x)));
     atomicAdd(env.density.v[at + 1u], uint(int(d.y)));

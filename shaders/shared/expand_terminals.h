@@ -261,7 +261,7 @@ struct StemNode {
     Node node;
     uint index;
     uint leader, follower;   // kNoIndex: it is a foot, a tip
-    vec3 before, after;      // their places; its own where there is none
+    vec3 before, after;      // their positions in its own object space; its own where there is none
 };
 // Of s its node and index are given; finds the rest. In place: where a copy is read as soon as it is written, processors
 // wait for it.
@@ -275,8 +275,8 @@ FN void lookAround(ExpandEnv env, IN(ChunkBrief) chunk, INOUT(StemNode) s) {
         if (chunkNodes(readMarks(env, next)) > 0u) s.follower = readFirstNode(env, next);
     }
     s.leader = local > 0u ? index - 1u : chunk.previousNode;
-    s.before = readPosition(env, s.leader == kNoIndex ? index : s.leader);
-    s.after = readPosition(env, s.follower == kNoIndex ? index : s.follower);
+    s.before = readPositionFrom(env, s.leader == kNoIndex ? index : s.leader, s.node.place);
+    s.after = readPositionFrom(env, s.follower == kNoIndex ? index : s.follower, s.node.place);
 }
 
 // The directions of the branches that leave a node, where the paper's average is asked for: it is over all adjacent

@@ -19,7 +19,7 @@ struct PaperLink {
 FN uint paperTexelBits(SurfaceBuf surfaces, uint instance, uint level, ivec2 at) {
     int size = int(surfaces.v[instance].levels[level].size);
     if (at.x < 0 || at.y < 0 || at.x >= size || at.y >= size) return 0u;
-    return surfaces.v[instance].levels[level].texels.v[texelIndex(uint(size), uint(at.x), uint(at.y))].bits;
+    return readTexel(surfaces, instance, level, texelIndex(uint(size), uint(at.x), uint(at.y))).bits;
 }
 FN bool paperInner(uint bits, uint chart) { return texelClass(bits) == kTexelInner && texelChart(bits) == chart; }
 FN bool paperLinking(uint bits, uint chart) { return texelClass(bits) > kTexelInner && texelChart(bits) == chart; }
@@ -67,7 +67,7 @@ FN PaperLink paperLinkOf(SurfaceBuf surfaces, uint instance, uint level, uint ch
         int x = at.x + i % 3 - 1;
         int y = at.y + i / 3 - 1;
         if (x < 0 || y < 0 || x >= int(size) || y >= int(size)) continue;
-        uint head = surfaces.v[instance].levels[level].crossingHead.v[texelIndex(size, uint(x), uint(y))];
+        uint head = readHead(surfaces, instance, level, texelIndex(size, uint(x), uint(y)));
         for (uint k = 0u; k < (head & 0xFFu); ++k) {
             uint index = surfaces.v[instance].levels[level].crossingRefs.v[(head >> 8u) + k];
             vec2 a = surfaces.v[instance].crossings.v[index].a;

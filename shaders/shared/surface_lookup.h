@@ -21,12 +21,16 @@ FN float surfaceScale(SurfaceBuf surfaces, uint instance) { return surfaces.v[in
 FN float surfaceRadius(SurfaceBuf surfaces, uint instance) { return surfaces.v[instance].radius; }
 FN uint levelSize(SurfaceBuf surfaces, uint instance, uint level) { return surfaces.v[instance].levels[level].size; }
 FN Texel readTexel(SurfaceBuf surfaces, uint instance, uint level, uint i) {
+    if (surfaces.v[instance].levels[level].touched != 0u)
+        return surfaces.v[instance].levels[level].texelTiles.v[i >> 6u].v[i & 63u];
     return surfaces.v[instance].levels[level].texels.v[i];
 }
 FN uint readTriangle(SurfaceBuf surfaces, uint instance, uint level, uint i) {
     return surfaces.v[instance].levels[level].aux.v[i].triangle;
 }
 FN uint readHead(SurfaceBuf surfaces, uint instance, uint level, uint i) {
+    if (surfaces.v[instance].levels[level].touched != 0u)
+        return surfaces.v[instance].levels[level].headTiles.v[i >> 6u].v[i & 63u];
     return surfaces.v[instance].levels[level].crossingHead.v[i];
 }
 FN uint readRef(SurfaceBuf surfaces, uint instance, uint level, uint i) {

@@ -55,12 +55,13 @@ struct Crossing {
     uint edge;         // octahedral 2×16: unit 3D direction a -> b on this side
     uint targetEdge;   // octahedral 2×16: unit 3D direction ta -> tb on the other side (same as edge for seams)
     uint target;       // bits 31..16 surface instance (0xFFFF: this one), 15..0 chart
-    uint flags;        // bits 1..0 kind, 2 kCrossingInsideLeft, 3 kCrossingTurned, 15..8 joint, in files 0,
-                       // 31..16 the chart whose border this is (charts may touch in the atlas)
+    uint flags;        // bits 1..0 kind, 2 kCrossingInsideLeft, 3 kCrossingTurned, 4 kCrossingMirrored, 15..8 joint,
+                       // bits 15..4 in files 0, 31..16 the chart whose border this is (charts may touch in the atlas)
 };
 STATIC_SIZE(Crossing, 48);
 CONST_UINT(kCrossingInsideLeft, 4u);   // the inside is to the left of a -> b
 CONST_UINT(kCrossingTurned, 8u);       // leads to the back of a sheet: outward there is inward here
+CONST_UINT(kCrossingMirrored, 16u);    // of the two instances one is mirrored: left there is right here
 
 // With x this, n the far side's outside and e the direction of targetEdge, the mean of both sides' outsides points
 // along n (1 - |x|) + (e × n) x, in the far instance's object space.
@@ -99,19 +100,26 @@ BUFFER(FloatBuf, float)
 BUFFER(CrossingBuf, Crossing)
 BUFFER(ChartBuf, Chart)
 BUFFER(TrianglePlaneBuf, TrianglePlane)
+// Of each 8x8 tile, where its texels or their heads lie.
+BUFFER(TexelTiles, TexelBuf)
+BUFFER(HeadTiles, UintBuf)
 
-// One level, 40 bytes. crossingHead: one word a texel, bits 31..8 first index into crossingRefs, 7..0 count;
+// One level, 56 bytes. crossingHead: one word a texel, bits 31..8 first index into crossingRefs, 7..0 count;
 // crossingRefs: indices into SurfaceRef::crossings of the segments that pass the texel's square (grown by a
 // hundredth of a texel), inner texels and gutter texels alike.
+// Placements of one surface share its arrays. Where others touch a placement, some tiles are its own: then its lists and
+// crossings are, too, and texels and heads are found by tile.
 struct SurfaceLevel {
-    TexelBuf texels;
+    TexelBuf texels;           // as baked, as is crossingHead
     TexelAuxBuf aux;
     UintBuf crossingHead;
     UintBuf crossingRefs;
+    TexelTiles texelTiles;     // [size² / 64] each, of those that are touched
+    HeadTiles headTiles;
     uint size;
-    uint spare;
+    uint touched;              // 1: by another placement
 };
-STATIC_SIZE(SurfaceLevel, 40);
+STATIC_SIZE(SurfaceLevel, 56);
 
 // One surface instance. scale: metres in the world per object-space unit (instances scale evenly only);
 // the walk counts lengths in world metres.
@@ -131,7 +139,7 @@ struct SurfaceRef {
     vec4 toWorld[3];       // rows of the 3×4 object-to-world matrix
     uint spare[2];
 };
-STATIC_SIZE(SurfaceRef, 448);
+STATIC_SIZE(SurfaceRef, 576);
 BUFFER(SurfaceBuf, SurfaceRef)
 
 FN uint texelIndex(uint size, uint x, uint y) {

@@ -34,7 +34,8 @@ struct Reach {
     bool insideLeft;     // the chart lies to the left of e,
     vec2 e;              // the border in its UV,
     uint edgeA, edgeB;   // and in space on both sides, packed
-    float over1;         // -1: to the back of a sheet
+    float outside1;      // -1: to the back of a sheet
+    float across1;       // -1: left there is right here
     float joint;         // to another instance: crossingJoint
 };
 
@@ -52,7 +53,8 @@ FN Reach reachInside(WalkState w, Stretch s, float texel) {
     r.e = vec2(0.0f);
     r.edgeA = 0u;
     r.edgeB = 0u;
-    r.over1 = 1.0f;
+    r.outside1 = 1.0f;
+    r.across1 = 1.0f;
     r.joint = 0.0f;
     return r;
 }
@@ -63,7 +65,8 @@ FN void reachBeyond(SurfaceBuf surfaces, uint level, WalkState w, vec2 delta, Ex
     Crossing c = readCrossing(surfaces, instance, leave.crossing);
     r.leaves = true;
     r.insideLeft = (c.flags & kCrossingInsideLeft) != 0u;
-    r.over1 = (c.flags & kCrossingTurned) != 0u ? -1.0f : 1.0f;
+    r.outside1 = (c.flags & kCrossingTurned) != 0u ? -1.0f : 1.0f;
+    r.across1 = (c.flags & kCrossingMirrored) != 0u ? -r.outside1 : r.outside1;
     // The search began where the last stretch ended before its correction; the walk itself meets the same
     // line here.
     vec2 ab = c.b - c.a;
@@ -87,7 +90,7 @@ FN void reachBeyond(SurfaceBuf surfaces, uint level, WalkState w, vec2 delta, Ex
         readChart(surfaces, toInstance, toChart, r.orientation, coarsest);
         r.level = level < coarsest ? level : coarsest;
         // Seen from outside, the far chart lies on the other side of the edge; mirrored UVs swap sides.
-        r.insideLeft = r.insideLeft == (r.orientation * w.orientation * r.over1 < 0.0f);
+        r.insideLeft = r.insideLeft == (r.orientation * w.orientation * r.across1 < 0.0f);
         r.texel = rcpExact(float(levelSize(surfaces, toInstance, r.level)));
     }
     // Not quite to a corner, where the next segment's outside begins.
@@ -107,10 +110,10 @@ FN void crossOver(INOUT(WalkState) w, vec2 delta, Reach r, Patch p, OUT(vec3) jo
         // The hinge: the components along the edge and across it pass over unchanged.
         vec3 ea = edgeIn(r.edgeA, n);
         vec3 eb = edgeIn(r.edgeB, p.normal);
-        t1 = unit3(eb * dot3(t, ea) + cross3(eb, p.normal) * (r.over1 * dot3(t, cross3(ea, n))));
+        t1 = unit3(eb * dot3(t, ea) + cross3(eb, p.normal) * (r.across1 * dot3(t, cross3(ea, n))));
         t1 = headedInside(p, t1, r.e, r.insideLeft);
         // n is of the near side's space; another instance's is turned against it.
-        vec3 outside = p.normal * r.over1;
+        vec3 outside = p.normal * r.outside1;
         vec3 turned = outside * (1.0f - absolute(r.joint)) + cross3(eb, outside) * r.joint;
         vec3 mean = r.place >> 16u == w.walk.place >> 16u ? n + outside : turned;
         float mean2 = dot3(mean, mean);

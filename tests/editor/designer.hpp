@@ -183,7 +183,7 @@ class Designer {
         return {set};
     }
     Actions make(PlaceSurface) {
-        return {PlaceSurface{0, {chance(-.3f, .3f), 0, chance(-.3f, .3f)}, chance(-.2f, .2f), 1}};
+        return {PlaceSurface{0, {chance(-.3f, .3f), 0, chance(-.3f, .3f)}, chance(-.2f, .2f), 1, chance(0, 1) < .5f}};
     }
     Actions make(SetLook) {
         SetLook look{pick(2), "bark"};

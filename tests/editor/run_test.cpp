@@ -27,7 +27,7 @@ TEST_CASE("every action comes back from its line") {
         LoadTownLayer{"moss", "moss.png"},
         SetField{1, {"flow", {0, -1, .5f}, .25f, {{"wedge", {1, 2, 3}, {0, 0, 1}, .5f}}}, true},
         AddSurface{"wall.surface.glb", {1, 2, -3}, .5f, 2},
-        PlaceSurface{1, {1, 2, -3}, .5f, 2},
+        PlaceSurface{1, {1, 2, -3}, .5f, 2, true},
         AddGrammar{"ivy.grammar"},
         SetLook{1, "leaf", "leaf.terminal.glb", "leaf.png", {.1f, .5f, .2f}},
         SetBookmark{3, true, {1, 2, 3}, {4, 5, 6}, .7f},

@@ -12,6 +12,7 @@
 
 #include "plugin_api/espalier.hpp"
 #include "tests/plugin/grown_square.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 using namespace espalier;
 
@@ -21,8 +22,9 @@ namespace {
 constexpr int kSquares = 20;
 constexpr float kApart = 4;
 
-// Squares in a row along x, each a metre wide, of which the budget holds five.
+// Squares in a row along x, each a metre wide and of a file of its own, of which the budget holds five.
 struct World {
+    test::ScratchFolder folder;
     EspContext* context = nullptr;
     std::vector<EspSurface> squares;
     uint64_t budget = 0, each = 0;
@@ -31,7 +33,11 @@ struct World {
         EspContextDef def = esp::defaults<EspContextDef>();
         def.log = quiet;
         REQUIRE_MESSAGE(espCreate(ESP_VERSION, &def, &context) == ESP_OK, espLastError(nullptr));
-        for (int i = 0; i < kSquares; ++i) squares.push_back(add(ESPALIER_SQUARE, kApart * float(i)));
+        for (int i = 0; i < kSquares; ++i) {
+            const std::string file = folder.file("square " + std::to_string(i) + ".glb");
+            std::filesystem::copy_file(ESPALIER_SQUARE, file);
+            squares.push_back(add(file.c_str(), kApart * float(i)));
+        }
         look(0, 1ull << 30);
         settle();
         each = info(squares[0]).bytes;

@@ -79,11 +79,39 @@ double loadBeside(EspContext* context, const std::string& path, int i, Costs& co
     return sum;
 }
 
+// Many places of one surface, beside as many loads.
+void placesCase(Bench& bench, EspContext* context, const std::string& path, double loadMs) {
+    constexpr int kPlaces = 2000;
+    const char* const name = "load/places";
+    if (!bench.wants(name)) return;
+    const EspTransform origin = at(0);
+    std::vector<EspSurface> surfaces(1);
+    bool good =
+        espLoadSurface(context, path.c_str(), &origin, surfaces.data()) == ESP_OK && espUpdate(context) == ESP_OK;
+    const auto bytes = [&] {
+        EspStats stats{};
+        stats.structSize = sizeof stats;
+        good = good && espReadStats(context, &stats) == ESP_OK;
+        return double(stats.totalBytes) / (1 << 20);
+    };
+    const double one = bytes(), before = threadMs();
+    for (int i = 1; i < kPlaces && good; ++i) {
+        const EspTransform place = at(i);
+        good = espPlaceAgain(context, surfaces[0], &place, &surfaces.emplace_back()) == ESP_OK;
+    }
+    good = good && espUpdate(context) == ESP_OK;
+    const double ms = threadMs() - before, all = bytes();
+    for (const EspSurface surface : surfaces) (void)espDestroySurface(context, surface);
+    if (!good) return bench.skip(name, espLastError(context));
+    bench.add({name, "memory of the device, 2,000 places", "MiB", all, "one place", one});
+    bench.add({name, "CPU time of the frame's thread, a place", "ms", ms / kPlaces, "loaded", loadMs});
+}
+
 }  // namespace
 
 void loadCases(Bench& bench) {
     const char* const name = "load/ruin";
-    if (!bench.wants(name)) return;
+    if (!bench.wants(name) && !bench.wants("load/places")) return;
     const std::string path = bench.options().contentFolder + "/ruin.surface.glb";
     if (!std::filesystem::exists(path)) return bench.skip(name, "there is no " + path);
     esp::Result<esp::Context> made = esp::Context::create();
@@ -95,6 +123,8 @@ void loadCases(Bench& bench) {
         costs.beside.push_back(loadBeside(context, path, i, costs));
     }
     if (!costs.failed.empty()) return bench.skip(name, costs.failed);
+    placesCase(bench, context, path, median(costs.atOnce));
+    if (!bench.wants(name)) return;
     bench.add({name, "CPU time of the frame's thread, all calls", "ms", median(costs.beside), "loaded at once",
                median(costs.atOnce)});
     bench.add({name, "longest of these calls", "ms", median(costs.longest), "loaded at once", median(costs.atOnce)});

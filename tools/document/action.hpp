@@ -154,9 +154,11 @@ struct AddSurface {
     std::string file;  // that espalier-bake wrote
     std::array<float, 3> position{};
     float turn = 0, scale = 1;  // as of scene::Placing
+    bool mirror = false;
     template <class V>
     void fields(V&& v) {
         v("file", file), v("position", position), v("turn", turn), v("scale", scale);
+        v.optional("mirror", mirror);
     }
 };
 // Puts a surface elsewhere, with what is planted and painted on it.
@@ -165,9 +167,11 @@ struct PlaceSurface {
     uint32_t surface = 0;
     std::array<float, 3> position{};
     float turn = 0, scale = 1;
+    bool mirror = false;
     template <class V>
     void fields(V&& v) {
         v("surface", surface), v("position", position), v("turn", turn), v("scale", scale);
+        v.optional("mirror", mirror);
     }
 };
 // A grammar that comes to the scene, as its last.

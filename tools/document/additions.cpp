@@ -22,10 +22,12 @@ bool canStand(const scene::Placing& place) {
 // Where a point or, without its position, a direction goes when what it belongs to is moved.
 std::array<float, 3> carried(const std::array<float, 3>& v, const scene::Placing& from, const scene::Placing& to,
                              bool isPoint) {
-    const double c = std::cos(double(to.turn) - from.turn), s = std::sin(double(to.turn) - from.turn);
-    const double scale = isPoint ? double(to.scale) / from.scale : 1;
+    // A mirror turns the way of what turns before it.
+    const double side = from.mirror == to.mirror ? 1 : -1, turn = double(to.turn) - side * from.turn;
+    const double c = std::cos(turn), s = std::sin(turn), scale = isPoint ? double(to.scale) / from.scale : 1;
     double at[3];
     for (size_t i = 0; i < 3; ++i) at[i] = scale * (double(v[i]) - (isPoint ? from.position[i] : 0));
+    at[0] *= side;
     const double turned[3] = {c * at[0] + s * at[2], at[1], c * at[2] - s * at[0]};
     std::array<float, 3> out;
     for (size_t i = 0; i < 3; ++i) out[i] = float(turned[i] + (isPoint ? to.position[i] : 0));
@@ -46,22 +48,20 @@ constexpr const char* kNoPlace = "a surface stands up to 1e9 m away and has a sc
 
 bool Document::carryOut(const AddSurface& action, std::vector<Action>& back, std::string& error) {
     scene::LoadedSurface surface{scene::absolutePath(action.file).string(),
-                                 {action.position, action.turn, action.scale}};
+                                 {action.position, action.turn, action.scale, action.mirror}};
     if (!canStand(surface.placing)) {
         error = kNoPlace;
         return false;
     }
     if (!scene::isSurface(surface.file, error)) return false;
-    surface.kept = scene::KeptFile::open(surface.file);
-    const EspTransform place = surface.placing.transform();
-    if (failed(espLoadSurface(context_, surface.file.c_str(), &place, &surface.id), error)) return false;
+    if (!scene::loadSurface(context_, scene_, surface, error)) return false;
     scene_.surfaces.push_back(std::move(surface));
     back.push_back(DropLast{DropLast::Kind::surface});
     return true;
 }
 
 bool Document::carryOut(const PlaceSurface& action, std::vector<Action>& back, std::string& error) {
-    const scene::Placing place{action.position, action.turn, action.scale};
+    const scene::Placing place{action.position, action.turn, action.scale, action.mirror};
     if (action.surface >= scene_.surfaces.size() || !canStand(place)) {
         error = action.surface >= scene_.surfaces.size() ? "there is no surface " + std::to_string(action.surface)
                                                          : kNoPlace;
@@ -90,7 +90,7 @@ bool Document::carryOut(const PlaceSurface& action, std::vector<Action>& back, s
     (void)plant(unplanted);
     // Taken back from the last to the first: seeds get their own places to the bit.
     if (!seeds.seeds.empty()) back.push_back(std::move(seeds));
-    back.push_back(PlaceSurface{action.surface, before.position, before.turn, before.scale});
+    back.push_back(PlaceSurface{action.surface, before.position, before.turn, before.scale, before.mirror});
     return true;
 }
 
@@ -130,7 +130,8 @@ bool Document::carryOut(const DropLast& action, std::vector<Action>& back, std::
     }
     const scene::LoadedSurface& last = scene_.surfaces.back();
     if (failed(espDestroySurface(context_, last.id), error)) return false;
-    back.push_back(AddSurface{last.file, last.placing.position, last.placing.turn, last.placing.scale});
+    back.push_back(
+        AddSurface{last.file, last.placing.position, last.placing.turn, last.placing.scale, last.placing.mirror});
     scene_.surfaces.pop_back();
     return true;
 }

@@ -33,6 +33,10 @@ class FieldWriter {
     void optional(const char* name, std::optional<T>& value) {
         if (value) (*this)(name, *value);
     }
+    // Or where it is false.
+    void optional(const char* name, bool& value) {
+        if (value) (*this)(name, value);
+    }
 
   private:
     using Out = nlohmann::ordered_json;
@@ -76,6 +80,9 @@ class FieldReader {
     }
     template <class T>
     void optional(const char* name, std::vector<T>& value) {
+        if (from_.find(name)) (*this)(name, value);
+    }
+    void optional(const char* name, bool& value) {
         if (from_.find(name)) (*this)(name, value);
     }
     template <class T>

@@ -108,12 +108,9 @@ class Parts {
 bool loadSurfaces(EspContext* context, const SceneFile& file, Parts& parts, Scene& out, std::string& error) {
     for (const SceneSurface& described : file.surfaces) {
         parts.begin(described.file);
-        LoadedSurface& surface =
-            out.surfaces.emplace_back(LoadedSurface{described.file, described.placing, described.drawn, {}});
-        const EspTransform place = surface.placing.transform();
-        surface.kept = KeptFile::open(surface.file);
-        const auto load = surface.drawn ? espLoadSurface : espLoadGround;
-        if (!fromContext(context, load(context, surface.file.c_str(), &place, &surface.id), error)) return false;
+        LoadedSurface loaded{described.file, described.placing, described.drawn, {}};
+        if (!loadSurface(context, out, loaded, error)) return false;
+        LoadedSurface& surface = out.surfaces.emplace_back(std::move(loaded));
         surface.hidden = described.hidden;
         surface.locked = described.locked;
         if (surface.hidden && !fromContext(context, espHideSurface(context, surface.id, 1), error)) return false;

@@ -18,10 +18,19 @@ KeptFile::~KeptFile() {
     ::close(file_);
 }
 
+KeptFile::Stamp KeptFile::stampOf(const struct stat& file) {
+    if (!S_ISREG(file.st_mode)) return {};
+    return {file.st_dev, file.st_ino, file.st_size, file.st_mtim.tv_sec, file.st_mtim.tv_nsec};
+}
+
 KeptFile::Stamp KeptFile::stamp() const {
     struct stat found;
-    if (::fstat(file_, &found) != 0 || !S_ISREG(found.st_mode)) return {};
-    return {found.st_size, found.st_mtim.tv_sec, found.st_mtim.tv_nsec};
+    return ::fstat(file_, &found) == 0 ? stampOf(found) : Stamp();
+}
+
+bool KeptFile::isStill(const std::string& path) const {
+    struct stat found;
+    return stamp_.size >= 0 && ::stat(path.c_str(), &found) == 0 && stampOf(found) == stamp_ && stamp() == stamp_;
 }
 
 bool KeptFile::read(std::string& bytes) const {

@@ -63,8 +63,8 @@ std::string contentFolder() {
 }
 
 EspTransform Placing::transform() const {
-    const float c = scale * std::cos(turn), s = scale * std::sin(turn);
-    return {{{c, 0, s, position[0]}, {0, scale, 0, position[1]}, {-s, 0, c, position[2]}}};
+    const float c = scale * std::cos(turn), s = scale * std::sin(turn), side = mirror ? -1.0f : 1.0f;
+    return {{{side * c, 0, s, position[0]}, {0, scale, 0, position[1]}, {side * -s, 0, c, position[2]}}};
 }
 
 namespace {

@@ -37,6 +37,7 @@ struct Placing {
     std::array<float, 3> position{};
     float turn = 0;  // radians, counterclockwise from above
     float scale = 1;
+    bool mirror = false;  // left becomes right, before it is turned; no town's
     EspTransform transform() const;
     bool operator==(const Placing&) const = default;
 };

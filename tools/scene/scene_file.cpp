@@ -131,12 +131,13 @@ class Reader : JsonChecks {
         if (many->kind != Json::Kind::list) fail(*many, "'surfaces' must be a list");
         for (const Json& surface : many->items) {
             if (!isObject(surface, "a surface",
-                          {"file", "position", "turn", "scale", "drawn", "hidden", "locked", "fields"}))
+                          {"file", "position", "turn", "scale", "mirror", "drawn", "hidden", "locked", "fields"}))
                 continue;
             SceneSurface& placed = out_.surfaces.emplace_back();
             if (const Json* name = need(surface, "file")) placed.file = file(*name);
             readPlace(surface, placed.placing);
             number(surface, "scale", 1e-6f, 1e6f, placed.placing.scale);
+            flag(surface, "mirror", placed.placing.mirror);
             flag(surface, "drawn", placed.drawn);
             flag(surface, "hidden", placed.hidden);
             flag(surface, "locked", placed.locked);

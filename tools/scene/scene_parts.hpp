@@ -10,6 +10,10 @@ namespace espalier::scene {
 // Whether a call went well; its message otherwise.
 bool fromContext(const EspContext* context, EspResult result, std::string& error);
 
+// Loads a surface whose file and place are known, and keeps its file. Where that is the file of one of the scene's, it
+// shares what has been read of that.
+bool loadSurface(EspContext* context, const Scene& scene, LoadedSurface& surface, std::string& error);
+
 // grammar.file names it in messages.
 bool compile(EspContext* context, LoadedGrammar& grammar, const std::string& text, std::string& error);
 bool compileFile(EspContext* context, LoadedGrammar& grammar, std::string& error);

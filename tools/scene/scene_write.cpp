@@ -28,6 +28,7 @@ ordered_json placedJson(const std::string& file, const Placing& p) {
     if (p.position != std::array<float, 3>{}) json["position"] = shortestList(p.position);
     if (p.turn != 0) json["turn"] = shortest(degreesOf(p.turn, turnOfDegrees));
     if (p.scale != 1) json["scale"] = shortest(p.scale);
+    if (p.mirror) json["mirror"] = true;
     return json;
 }
 
