@@ -190,7 +190,7 @@ class Context {
         EspSurface surface{};
         return owned<Surface>(espLoadSurface(get(), path, place, &surface), surface);
     }
-    /* A surface at another place, too: see espPlaceAgain. */
+    /* A surface once more, elsewhere: see espPlaceAgain. */
     Result<Surface> placeAgain(EspSurface like, const EspTransform& place) {
         EspSurface surface{};
         return owned<Surface>(espPlaceAgain(get(), like, &place, &surface), surface);

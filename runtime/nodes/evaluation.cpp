@@ -65,6 +65,9 @@ Status NodeEvaluation::load(NodeGraph graph, bool unfinished) {
         running[n].outputs = std::move(old.outputs);
         running[n].kept = std::move(old.kept);
         if (sameLoop(graph, *checked, n, uint32_t(before))) running[n].passes = std::move(old.passes);
+        // Loops within may hold other nodes than before.
+        for (Pass& pass : running[n].passes)
+            for (Made& made : pass.nodes) made.passes.clear();
         running[n].evaluations = old.evaluations;
         running[n].ms = old.ms;
         if (!stands) continue;

@@ -51,12 +51,17 @@ class Measuring {
   private:
     // Steps of a program whose instances are looked at together, by the first of each group. Of very many instances
     // each step is a group: the boxes of what it places are placed as a whole, which takes a sum of steps and no
-    // product.
+    // product. A box that is bent as a whole doesn't hold what is bent within it, so this is for steps that only place.
     static std::vector<uint32_t> groupsOf(const GeometryPart& part) {
         constexpr uint64_t kFew = 65536;
+        const auto instances = [](const DeformOp& op) { return op.kind == kDeformInstance; };
+        const auto first = std::ranges::find_if(part.program, instances);
+        const bool places = std::all_of(first, part.program.end(), [](const DeformOp& op) {
+            return op.kind == kDeformInstance || op.kind == kDeformMove;
+        });
         std::vector<uint32_t> groups;
         for (uint32_t k = 0; k < part.program.size(); ++k)
-            if (part.program[k].kind == kDeformInstance && (groups.empty() || part.instances() > kFew))
+            if (instances(part.program[k]) && (groups.empty() || (places && part.instances() > kFew)))
                 groups.push_back(k);
         return groups;
     }

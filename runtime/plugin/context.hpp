@@ -29,8 +29,8 @@
 
 namespace espalier {
 
-// A place is the number of an instance. Records have 16 bits for it; fewer here leave an id more generations.
-using SurfaceTable = IdTable<PlacedSurface, 16>;  // as nodes and crossings count instances
+// A place is the number of an instance, for which records have 16 bits. Each is used 1,023 times.
+using SurfaceTable = IdTable<PlacedSurface, 16>;
 
 // What of a context is made from what. An edit calls change() of what it changes; what is made from that is due then.
 struct ContextNodes {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstring>
 #include <numeric>
+#include <unordered_map>
 
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/given.hpp"
@@ -63,8 +64,10 @@ std::vector<SurfacePair> pairsOf(const std::vector<Stand>& stands, const std::ve
             if (j < i) continue;
             const Box shared{glm::max(boxes[i].low, boxes[j].low), glm::min(boxes[i].high, boxes[j].high)};
             SurfacePair pair{stands[i], stands[j], {}, {}, {}, {}};
-            for (size_t k : neighbours[i])
-                if (k != j && boxes[k].touches(shared)) pair.others.push_back(stands[k]);
+            // Who touches what they share is a neighbour of both, of whom one may be a ground with thousands.
+            const bool fewer = neighbours[i].size() < neighbours[j].size();
+            for (size_t k : fewer ? neighbours[i] : neighbours[j])
+                if (k != i && k != j && boxes[k].touches(shared)) pair.others.push_back(stands[k]);
             pairs.push_back(std::move(pair));
         }
     return pairs;
@@ -156,6 +159,10 @@ Status refreshContacts(EspContext& context) {
     }
     context.pairs = std::move(pairs);
 
+    std::unordered_map<uint32_t, std::vector<const SurfacePair*>> pairsWith;  // by ids
+    for (const SurfacePair& pair : context.pairs)
+        for (const uint32_t id : {pair.a.id, pair.b.id})
+            if (context.touched.contains(id)) pairsWith[id].push_back(&pair);
     context.contactCount = 0;
     Status status = Done{};
     context.surfaces.forEach([&](uint32_t id, PlacedSurface& surface) {
@@ -171,12 +178,14 @@ Status refreshContacts(EspContext& context) {
                 wanted.push_back(c);
             }
         };
-        for (const SurfacePair& pair : context.pairs) {
-            if (pair.a.id == id) add(pair.found.fromA, pair.b.id), addTo(hidden, pair.hiddenOfA);
-            if (pair.b.id == id) add(pair.found.fromB, pair.a.id), addTo(hidden, pair.hiddenOfB);
+        for (const SurfacePair* pair : pairsWith[id]) {
+            if (pair->a.id == id) add(pair->found.fromA, pair->b.id), addTo(hidden, pair->hiddenOfA);
+            if (pair->b.id == id) add(pair->found.fromB, pair->a.id), addTo(hidden, pair->hiddenOfB);
         }
         context.contactCount += uint32_t(wanted.size());
         TexelSets buried = buriedTexels(surface.content->data, hidden, wanted);
+        // Beside each other, without a touch: as baked.
+        if (std::ranges::all_of(buried, &std::vector<uint32_t>::empty)) buried.clear();
         if (!status || (same(wanted, surface.contacts) && buried == surface.buried)) return;
         status = surface.gpu.addCrossings(*context.device, surface.content->data, wanted, buried);
         if (!status) return;

@@ -223,10 +223,14 @@ EspResult standAgain(EspContext& context, uint32_t id) {
     const GpuSurface gpu(read->ground, read->upload);
     context.renderer->setSurface(surface.instance, std::move(read->drawn), read->upload);
     const std::shared_ptr<SurfaceContent> before = surface.content, now = read->surface.content;
-    context.surfaces.forEach([&](uint32_t, PlacedSurface& place) {
+    // What may run out of memory comes first, so that all places change or none.
+    context.surfaces.forEach([&](uint32_t, const PlacedSurface& place) {
         if (place.content != before) return;
         if (&place != &surface) context.renderer->setSurfaceLike(place.instance, surface.instance, place.toWorld);
         context.renderer->hideSurface(place.instance, place.hidden);
+    });
+    context.surfaces.forEach([&](uint32_t, PlacedSurface& place) {
+        if (place.content != before) return;
         place.content = now;
         place.gpu = gpu.another();
         place.contacts = {};

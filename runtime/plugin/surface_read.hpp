@@ -37,7 +37,7 @@ EspResult standSurface(EspContext& context, const std::string& call, SurfaceRead
 // Likewise under an id that is reserved.
 void standAs(EspContext& context, uint32_t id, SurfaceRead read);
 
-// Puts a surface that stands at another place, too, which shares all that was read and uploaded. Fails where the place
+// Places a standing surface once more: the new one shares all that was read and uploaded. Fails where the place
 // can't be used, with messages that begin with `call`.
 EspResult standLike(EspContext& context, const std::string& call, uint32_t like, const EspTransform& place,
                     EspSurface* out);

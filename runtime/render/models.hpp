@@ -40,7 +40,7 @@ class Models {
     class Plan;
     static Plan plan(const SurfaceData& data, const glm::mat4& toWorld, bool groundOnly, bool roots, Upload& upload);
     void set(uint32_t index, Plan plan, Upload& upload);
-    // The model `like`, which is there, at another place, too: shares what was uploaded.
+    // The model `like`, which is there, once more at another place: shares what was uploaded.
     void setLike(uint32_t index, uint32_t like, const glm::mat4& toWorld);
     void remove(uint32_t index);
     void place(uint32_t index, const glm::mat4& toWorld);

@@ -39,7 +39,7 @@ class Renderer {
         unprepare();
         models_.set(index, std::move(plan), upload);
     }
-    // The surface `like`, which is there, at another place, too.
+    // The surface `like`, which is there, once more at another place.
     void setSurfaceLike(uint32_t index, uint32_t like, const glm::mat4& toWorld) {
         unprepare();
         models_.setLike(index, like, toWorld);

@@ -37,7 +37,7 @@ class ContactGround {
 
 struct PlacedGround {
     const ContactGround* ground;
-    glm::dmat4 toWorld;  // a move, a turn and an even scale
+    glm::dmat4 toWorld;  // a move, a turn and an even scale, mirrored perhaps
 };
 
 // The contacts between two placed surfaces, in both directions: crossings complete but for the instance in `target`.

@@ -160,7 +160,7 @@ std::vector<ContactStretch> stretchesWithin(const ContactView& view, const BoxTr
 
 std::vector<ContactStretch> stretchesBetween(const ContactView& a, const BoxTree& treeA, const ContactView& b,
                                              const BoxTree& treeB, double tolerance) {
-    const double scale = std::cbrt(glm::determinant(glm::dmat3(b.map)));
+    const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(b.map))));
     std::vector<ContactStretch> found;
     treeA.pairs(treeB, b.map, tolerance, [&](uint32_t i, uint32_t j) { find(a, i, b, j, scale, found); });
     merge(found);

@@ -243,7 +243,7 @@ Status GpuSurface::readBack(Device& device, SurfaceData& out) const {
 
 Status GpuSurface::addCrossings(Device& device, const SurfaceData& base, std::span<const Crossing> added,
                                 const TexelSets& buried) {
-    if (added.empty() && buried.empty()) {
+    if (added.empty() && std::ranges::all_of(buried, &std::vector<uint32_t>::empty)) {
         added_ = {};
         ref_ = baked_->ref;
         return Done{};

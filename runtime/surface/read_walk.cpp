@@ -11,6 +11,7 @@
 namespace espalier::surface_file {
 namespace {
 
+constexpr uint32_t kPlacedBits = 0xFFF0;  // of Crossing::flags: set where surfaces are placed, never in files
 constexpr uint32_t kMaxSize = 8192;
 
 template <class T>
@@ -131,7 +132,7 @@ void validate(const SurfaceData& data) {
     for (size_t i = 0; i < data.crossings.size(); ++i) {
         const Crossing& c = data.crossings[i];
         if (!inSquare(c.a) || !inSquare(c.b) || !inSquare(c.ta) || !inSquare(c.tb) || (c.target & 0xFFFFu) >= charts ||
-            (c.flags >> 16) >= charts)
+            (c.flags >> 16) >= charts || (c.flags & kPlacedBits) != 0)
             fail(place, indexed("crossings", i) + " is out of range");
         // What a file says of other instances would be followed into a table that it can't know.
         if ((c.target >> 16) != 0xFFFFu) fail(place, indexed("crossings", i) + " leads to another instance");

@@ -12,13 +12,14 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) flat in vec3 base;
 layout(location = 3) in vec3 uvFade;
+layout(location = 4) flat in float turned;
 layout(location = 0) out vec4 color;
 
 void main() {
     if (fadedOut(uvFade.z, gl_FragCoord.xy)) discard;
     vec3 n = normalize(normal);
     vec3 eye = normalize(frame.eye - position);
-    if (dot(n, eye) < 0.0 && !gl_FrontFacing) n = -n;
+    if (dot(n, eye) < 0.0 && gl_FrontFacing == turned < 0.0) n = -n;
     if (explains) {
         color = frame.view == kViewOverdraw ? oneFragment()
                 : frame.view == kViewNormals ? stored(n * 0.5 + 0.5, 0.0)

@@ -14,6 +14,7 @@ layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) flat out vec3 base;
 layout(location = 3) out vec3 uvFade;
+layout(location = 4) flat out float turned;   // below 0: its axes mirror
 
 // Of a piece without a colour of its own.
 const vec3 kPlain = vec3(0.42, 0.39, 0.33);
@@ -40,12 +41,14 @@ void main() {
     int vertex = 3 * gl_VertexIndex;
     uvec2 p = texelFetch(meshes, vertex).xy, q = texelFetch(meshes, vertex + 1).xy;
     vec3 v = vec3(uintBitsToFloat(p), uintBitsToFloat(q.x)), n = octahedralToUnit(q.y);
+    turned = 1.0;
     if ((d.x & kPieceLine) != 0u) {
         normal = n;
         position = bentAlong(uintBitsToFloat(c.yzw), x, y, floatBitsToUint(z), v, normal);
     } else {
         position = uintBitsToFloat(c.yzw) + x * v.x + y * v.y + z * v.z;
         // The axes are at right angles, so their inverse transpose is each over the square of its length.
+        turned = dot(cross(x, y), z);
         normal = x * (n.x / dot(x, x)) + y * (n.y / dot(y, y)) + z * (n.z / dot(z, z));
     }
     vec3 own = vec3((uvec3(d.z) >> uvec3(20u, 10u, 0u)) & 1023u) * (1.0 / 1023.0);

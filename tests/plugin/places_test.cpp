@@ -14,6 +14,7 @@
 #include <iterator>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "plugin_api/espalier.hpp"
@@ -196,6 +197,21 @@ TEST_CASE("places cost what touches them, and no more") {
     for (World* some : {&world, &alone}) (void)some->picture();
 }
 
+TEST_CASE("places whose boxes meet cost nothing where they don't touch") {
+    World world(true);
+    const uint64_t before = world.stats().surfaceBytes;
+    // Aslant, so that their boxes meet.
+    EspSurface surface{};
+    for (int i = 0; i < 2; ++i) {
+        const EspTransform place = placeAt(50 + .3f * float(i), 0, .3f * float(i), .7f);
+        REQUIRE(espPlaceAgain(world.context, world.squares[0], &place, &surface) == ESP_OK);
+    }
+    const uint32_t contacts = world.stats().contacts;
+    world.update();
+    CHECK(world.stats().contacts == contacts);
+    CHECK(world.stats().surfaceBytes == before);
+}
+
 TEST_CASE("a lost device gives back what places share") {
     World shared(true);
     shared.paint(1, ESP_BRUSH_PAINT);
@@ -323,6 +339,35 @@ TEST_CASE("a plant climbs over to a mirrored surface as over to any other") {
         CHECK(beyond);
         CHECK(apart < 1e-3f);  // a contact lies a fiftieth of a texel within each border
         CHECK(turned < .05f);
+    }
+}
+
+TEST_CASE("a mirrored surface touches what is near it as any other does") {
+    // Squares beside another one: from a hair before it on, and turned into it.
+    for (const float angle : {.02f, .37f, 1.1f}) {
+        CAPTURE(angle);
+        uint32_t contacts[2];
+        for (const bool other : {false, true}) {
+            EspContextDef def = esp::defaults<EspContextDef>();
+            def.log = quiet;
+            EspContext* context = nullptr;
+            REQUIRE(espCreate(ESP_VERSION, &def, &context) == ESP_OK);
+            EspTransform floor = espIdentity(), wall = placeAt(.23f, .17f, .004f, angle);
+            // About its diagonal, so that its two triangles fill the same places.
+            if (other)
+                for (auto& row : wall.rows) std::swap(row[0], row[1]);
+            EspSurface surface{};
+            REQUIRE(espLoadSurface(context, ESPALIER_SQUARE, &floor, &surface) == ESP_OK);
+            REQUIRE(espPlaceAgain(context, surface, &wall, &surface) == ESP_OK);
+            REQUIRE(espUpdate(context) == ESP_OK);
+            EspStats stats{};
+            stats.structSize = sizeof stats;
+            REQUIRE(espReadStats(context, &stats) == ESP_OK);
+            contacts[other] = stats.contacts;
+            espDestroy(context);
+        }
+        CHECK(contacts[0] > 0);
+        CHECK(contacts[0] == contacts[1]);
     }
 }
 
