@@ -343,8 +343,8 @@ TEST_CASE("a plant climbs over to a mirrored surface as over to any other") {
 }
 
 TEST_CASE("a mirrored surface touches what is near it as any other does") {
-    // Squares beside another one: from a hair before it on, and turned into it.
-    for (const float angle : {.02f, .37f, 1.1f}) {
+    // Squares beside another one: turned into it from a hair before it on, or straight up from there.
+    for (const float angle : {.02f, .37f, 1.1f, -1.5707964f}) {
         CAPTURE(angle);
         uint32_t contacts[2];
         for (const bool other : {false, true}) {
@@ -352,7 +352,7 @@ TEST_CASE("a mirrored surface touches what is near it as any other does") {
             def.log = quiet;
             EspContext* context = nullptr;
             REQUIRE(espCreate(ESP_VERSION, &def, &context) == ESP_OK);
-            EspTransform floor = espIdentity(), wall = placeAt(.23f, .17f, .004f, angle);
+            EspTransform floor = espIdentity(), wall = placeAt(.23f, .17f, .0005f, angle);
             // About its diagonal, so that its two triangles fill the same places.
             if (other)
                 for (auto& row : wall.rows) std::swap(row[0], row[1]);
