@@ -17,6 +17,7 @@ layout(location = 0) out vec3 position;
 layout(location = 1) out vec3 normal;
 layout(location = 2) flat out vec3 base;
 layout(location = 3) out vec3 uvFade;
+layout(location = 4) flat out float turned;   // as of pieces: never mirrored
 
 vec3 deformed(vec3 p, vec3 n, uint instance) {
     for (uint k = 0u; k < drawn.opCount; ++k) p = deformStep(ops[k], p, n, instance);
@@ -24,6 +25,7 @@ vec3 deformed(vec3 p, vec3 n, uint instance) {
 }
 
 void main() {
+    turned = 1.0;
     int v = gl_VertexIndex, stride = int(drawn.stride);
     vec3 p = uintBitsToFloat(uvec3(texelFetch(positions, v).x, texelFetch(positions, v + stride).x,
                                    texelFetch(positions, v + 2 * stride).x));
@@ -37,9 +39,9 @@ void main() {
         vec3 across = normalize(cross(n, abs(n.y) < 0.7 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
         vec3 other = cross(n, across);
         position = deformed(p, n, instance);
-        vec3 turned = cross(deformed(p + step * across, n, instance) - position,
+        vec3 facing = cross(deformed(p + step * across, n, instance) - position,
                             deformed(p + step * other, n, instance) - position);
-        normal = dot(turned, turned) > 0.0 ? normalize(turned) : n;
+        normal = dot(facing, facing) > 0.0 ? normalize(facing) : n;
     }
     base = drawn.colour;
     uvFade = vec3(1.0);
