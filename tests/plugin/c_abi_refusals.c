@@ -28,8 +28,10 @@ void badArguments(EspContext* context) {
     EspTransform skewed = espIdentity();
     skewed.rows[0][0] = 2;
     REFUSED(espLoadSurface(context, surfacePath, &skewed, &surface));
-    skewed.rows[0][0] = -1;
+    skewed.rows[0][0] = 1;
+    skewed.rows[0][1] = -1;
     REFUSED(espLoadSurface(context, surfacePath, &skewed, &surface));
+    skewed.rows[0][1] = 0;
     skewed.rows[0][0] = NAN;
     REFUSED(espLoadSurface(context, surfacePath, &skewed, &surface));
     REFUSED(espDestroySurface(context, none));
