@@ -217,8 +217,8 @@ typedef struct EspSurfaceDef {
 /* espLoadSurface and espLoadGround, from memory too. */
 ESP_API EspResult espAddSurface(EspContext* context, const EspSurfaceDef* def, EspSurface* out);
 /* Places a standing surface once more, elsewhere. The new one has seeds and layers of its own, and shares what was read and
- * uploaded of `like` as long as one of the two is there. Only what other surfaces touch costs memory for each
- * place, and what is painted. `groundOnly` is that of `like`; fields aren't taken along. */
+ * uploaded of `like` as long as one of the two is there. A place that other surfaces touch takes an eighth to a
+ * fifth of the surface's memory for itself, and what is painted. `groundOnly` is that of `like`; fields aren't taken along. */
 ESP_API EspResult espPlaceAgain(EspContext* context, EspSurface like, const EspTransform* place, EspSurface* out);
 /* Puts a surface elsewhere, with its seeds and layers. In the next espUpdate contacts with other surfaces are found anew,
  * and plants grow again that can get to it from where they stand; others are left alone. Of a surface that touches no

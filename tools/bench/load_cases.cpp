@@ -88,12 +88,21 @@ void placesCase(Bench& bench, EspContext* context, const std::string& path, doub
     std::vector<EspSurface> surfaces(1);
     bool good =
         espLoadSurface(context, path.c_str(), &origin, surfaces.data()) == ESP_OK && espUpdate(context) == ESP_OK;
-    const auto bytes = [&] {
+    const auto stats = [&] {
         EspStats stats{};
         stats.structSize = sizeof stats;
         good = good && espReadStats(context, &stats) == ESP_OK;
-        return double(stats.totalBytes) / (1 << 20);
+        return stats;
     };
+    const auto bytes = [&] { return double(stats().totalBytes) / (1 << 20); };
+    // Two that run into each other.
+    EspTransform beside = origin;
+    beside.rows[0][3] = 3.5f, beside.rows[2][3] = 0.3f;
+    EspSurface second{};
+    const double surface = double(stats().surfaceBytes) / (1 << 20);
+    good = good && espPlaceAgain(context, surfaces[0], &beside, &second) == ESP_OK && espUpdate(context) == ESP_OK;
+    const double touched = (double(stats().surfaceBytes) / (1 << 20) - surface) / 2;
+    good = good && espDestroySurface(context, second) == ESP_OK && espUpdate(context) == ESP_OK;
     const double one = bytes(), before = threadMs();
     for (int i = 1; i < kPlaces && good; ++i) {
         const EspTransform place = at(i);
@@ -104,6 +113,7 @@ void placesCase(Bench& bench, EspContext* context, const std::string& path, doub
     for (const EspSurface surface : surfaces) (void)espDestroySurface(context, surface);
     if (!good) return bench.skip(name, espLastError(context));
     bench.add({name, "memory of the device, 2,000 places", "MiB", all, "one place", one});
+    bench.add({name, "memory for each of two that touch", "MiB", touched, "the surface", surface});
     bench.add({name, "CPU time of the frame's thread, a place", "ms", ms / kPlaces, "loaded", loadMs});
 }
 
