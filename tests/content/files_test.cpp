@@ -34,7 +34,7 @@ TEST_CASE("two runs write the same bytes, and the binaries' frames are right") {
     Folder first("espalier_content_1"), second("espalier_content_2");
     for (const Folder* f : {&first, &second}) REQUIRE(content::generate({f->path.string(), "", 256}));
     for (const char* name : {"ruin.glb", "mask.png", "ivy.png", "terminals.glb", "roofs.glb", "props.glb", "pieces.glb",
-                             "cuirass.glb", "vase.glb", "knot.glb"}) {
+                             "cuirass.glb", "vase.glb", "knot.glb", "pear.glb", "torus.glb", "tori.glb", "plane.glb"}) {
         CAPTURE(name);
         std::vector<char> a = bytesOf(first.path / name);
         CHECK(a.size() > 1000);
@@ -47,7 +47,7 @@ TEST_CASE("two runs write the same bytes, and the binaries' frames are right") {
             CHECK(head[2] == a.size());
         }
     }
-    CHECK(std::distance(std::filesystem::directory_iterator(first.path), std::filesystem::directory_iterator()) == 10);
+    CHECK(std::distance(std::filesystem::directory_iterator(first.path), std::filesystem::directory_iterator()) == 14);
 }
 
 TEST_CASE("a folder that can't be made is reported by name") {

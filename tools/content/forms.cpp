@@ -1,4 +1,4 @@
-// In: nothing. Out: smooth closed bodies of some thousand triangles.
+// In: nothing. Out: smooth bodies of some thousand triangles.
 #include "tools/content/forms.hpp"
 
 #include <algorithm>
@@ -22,6 +22,7 @@ float turnOf(float s) {
 
 // A smooth curve through points (Catmull-Rom), at a share of its way; before and behind it goes straight on.
 vec2 through(const std::vector<vec2>& points, float share) {
+    if (share == 1) return points.back();  // to the bit, so that bodies are closed there
     const float x = share * float(points.size() - 1);
     const int i = std::clamp(int(std::floor(x)), 0, int(points.size()) - 2);
     const float t = x - float(i);
@@ -62,6 +63,21 @@ Solid vase() {
                    {.2f, .9f},
                    {0, .85f}},
                   72, 96);
+}
+
+Solid pear() {
+    return turned({{0, .03f},
+                   {.12f, 0},
+                   {.3f, .06f},
+                   {.45f, .24f},
+                   {.5f, .46f},
+                   {.44f, .7f},
+                   {.31f, .92f},
+                   {.23f, 1.12f},
+                   {.2f, 1.28f},
+                   {.12f, 1.4f},
+                   {0, 1.42f}},
+                  64, 72);
 }
 
 // A breastplate and a backplate in one: broad at the chest, narrow at the waist, with a ridge in front.
@@ -106,10 +122,39 @@ Solid knot() {
     return solid;
 }
 
+// It stands upright and faces z.
+Solid torus() {
+    constexpr float kRing = .5f, kTube = .24f;
+    Solid solid;
+    solid.sheet(96, 48, [](float s, float t) {
+        const float a = turnOf(s), b = turnOf(t), r = kRing + kTube * std::cos(b);
+        return vec3(r * std::cos(a), kRing + kTube + r * std::sin(a), kTube * std::sin(b));
+    });
+    return solid;
+}
+
+// Upright, it faces z; a picture over its texture coordinates hangs on it as on a wall.
+Mesh plane() {
+    constexpr int kSquares = 32;
+    Solid solid;
+    solid.sheet(kSquares, kSquares, [](float s, float t) { return vec3(2 * s - 1, 2 * t, 0); });
+    for (size_t i = 0; i < solid.mesh.positions.size(); ++i) {
+        const vec3 p = solid.mesh.positions[i];
+        solid.mesh.uvs[i] = {.5f * p.x + .5f, 1 - .5f * p.y};
+    }
+    return std::move(solid.mesh);
+}
+
 }  // namespace
 
 FormMeshes makeForms() {
-    return {{{"cuirass", cuirass().mesh}, {"vase", vase().mesh}, {"knot", knot().mesh}}};
+    return {{{"cuirass", cuirass().mesh},
+             {"vase", vase().mesh},
+             {"knot", knot().mesh},
+             {"pear", pear().mesh},
+             {"torus", torus().mesh},
+             {"tori", makeLinkedTori()},
+             {"plane", plane()}}};
 }
 
 }  // namespace espalier::content

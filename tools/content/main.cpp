@@ -1,6 +1,6 @@
 // espalier-content OUT_DIR: generates Espalier's own sample content. In: nothing but options. Out: ruin.glb,
-// mask.png, ivy.png, terminals.glb, roofs.glb, pieces.glb, cuirass.glb, vase.glb, knot.glb, props.glb; with --town FILE
-// and --grammar FILE, site.json and site.png; with --preview DIR, pictures.
+// mask.png, ivy.png, terminals.glb, roofs.glb, pieces.glb, a file of each form that patterns lie on, props.glb; with
+// --town FILE and --grammar FILE, site.json and site.png; with --preview DIR, pictures.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
