@@ -74,6 +74,23 @@ std::vector<vec2> roundBar(int steps) {
     return profile;
 }
 
+// A thin bar with half a ball at either end: bars that follow each other make balls where they meet.
+std::vector<vec2> edgeBar(int rings) {
+    constexpr float kBar = .22f, kBall = .8f;
+    const float quarter = .5f * std::numbers::pi_v<float>;
+    std::vector<vec2> front;
+    for (int i = 0; i < rings; ++i) {
+        const float a = quarter * float(i) / float(rings);
+        front.push_back({kBall * std::cos(a), .5f + kBall * std::sin(a)});
+    }
+    front.push_back({0, .5f + kBall});
+    front.insert(front.begin(), {kBar, .42f});
+    std::vector<vec2> profile;
+    for (size_t i = front.size(); i-- > 0;) profile.push_back({front[i].x, -front[i].y});
+    profile.insert(profile.end(), front.begin(), front.end());
+    return profile;
+}
+
 Solid ring(int around, int tube, float large, float small, const Form& form = nullptr) {
     Solid solid;
     solid.sheet(around, tube, [&](float s, float t) {
@@ -248,6 +265,8 @@ PieceMeshes makePieceMeshes() {
     add("hexagon", 0, raised(polygon(6, .5f), .25f, .05f, .02f).mesh, 1);
     add("triangle", 0, raised(polygon(3, .57735027f), .25f, .05f, 0).mesh, 1);
     add("star", 0, raised(starOutline(5), .18f, .03f, .08f).mesh, 1);
+    for (int lod = 0; lod < 3; ++lod)
+        add("edge", lod, turnedBody(12 - 3 * lod, edgeBar(4 - lod), raisedAlongX).mesh, 1);
     return out;
 }
 
