@@ -25,6 +25,8 @@ class HostRunner {
     bool run(StageList& list, GrowthWatch* watch = nullptr, PassTimes* times = nullptr);
 
   private:
+    bool runOnce(Stage& stage, uint32_t wave, GrowthWatch* watch);
+
     Crew crew_;
     bool plain_;
 };

@@ -53,8 +53,8 @@ Status Run::add(StageList list, GrowthWatch* watch) {
     if (Status ready = prepare(list); !ready) return ready;
     if (!atOnce_) {
         std::optional<Pass> pass;
-        for (Stage& stage : list)
-            if (Status s = record(stage, pass); !s) return s;
+        for (size_t i = 0; i < list.size(); i += list[i].together)
+            if (Status s = record({&list[i], list[i].together}, pass); !s) return s;
         return Done{};
     }
     if (commands_) {
@@ -66,29 +66,35 @@ Status Run::add(StageList list, GrowthWatch* watch) {
     return Done{};
 }
 
-Status Run::record(Stage& stage, std::optional<Pass>& pass) {
-    Result<const Program*> program = runner_.programs_.of(stage.kernel, stage.constants);
-    if (!program) return program.failure();
-    const bool follows = pass && std::string_view(passes_.back()) == stage.pass;
+// Stages that run together in each wave: usually one.
+Status Run::record(std::span<Stage> group, std::optional<Pass>& pass) {
+    const bool follows = pass && std::string_view(passes_.back()) == group[0].pass;
     if (!follows) {
         pass.reset();  // ends before the next one begins
-        pass.emplace(*commands_, stage.pass);
-        passes_.push_back(stage.pass);
+        pass.emplace(*commands_, group[0].pass);
+        passes_.push_back(group[0].pass);
     }
-    for (uint32_t wave = stage.firstWave; wave < stage.lastWave; ++wave) {
-        if (stage.turn) stage.turn(stage, wave);
-        std::vector<Binding> bindings = stage.bindings;
-        if (stage.laneBytes > 0) bindings.emplace_back(runner_.lanes_);
-        const Push push(stage.push.data(), stage.push.size());
-        for (uint32_t round = 0; round < stage.rounds; ++round) {
-            const Hazards::Wait wait = hazards_.add(stage.kernel, stage.groups);
-            if (wait.any) pass->barrier(wait.before, Hazards::kAfter);
-            if (stage.groups.from)
-                pass->dispatchIndirect(**program, *stage.groups.from, stage.groups.offset, push, bindings);
-            else
-                pass->dispatch(**program, stage.groups.count, push, bindings);
-            ++dispatches_;
-        }
+    for (uint32_t wave = group[0].firstWave; wave < group[0].lastWave; ++wave)
+        for (Stage& stage : group)
+            if (Status s = recordOnce(stage, wave, *pass); !s) return s;
+    return Done{};
+}
+
+Status Run::recordOnce(Stage& stage, uint32_t wave, Pass& pass) {
+    Result<const Program*> program = runner_.programs_.of(stage.kernel, stage.constants);
+    if (!program) return program.failure();
+    if (stage.turn) stage.turn(stage, wave);
+    std::vector<Binding> bindings = stage.bindings;
+    if (stage.laneBytes > 0) bindings.emplace_back(runner_.lanes_);
+    const Push push(stage.push.data(), stage.push.size());
+    for (uint32_t round = 0; round < stage.rounds; ++round) {
+        const Hazards::Wait wait = hazards_.add(stage.kernel, stage.groups);
+        if (wait.any) pass.barrier(wait.before, Hazards::kAfter);
+        if (stage.groups.from)
+            pass.dispatchIndirect(**program, *stage.groups.from, stage.groups.offset, push, bindings);
+        else
+            pass.dispatch(**program, stage.groups.count, push, bindings);
+        ++dispatches_;
     }
     return Done{};
 }

@@ -75,7 +75,8 @@ class Run {
         const std::byte* memory;
     };
     explicit Run(Runner& runner, bool atOnce) : runner_(runner), atOnce_(atOnce) {}
-    Status record(Stage& stage, std::optional<Pass>& pass);
+    Status record(std::span<Stage> group, std::optional<Pass>& pass);
+    Status recordOnce(Stage& stage, uint32_t wave, Pass& pass);
     Status makeReadback();
     Status collect();
 

@@ -69,8 +69,8 @@ struct Stage {
     uint64_t laneBytes = 0;  // memory of its lanes, which a device binds last; native code needs none
     uint32_t rounds = 1;     // a dispatch goes on where the one before has ended; native code needs one
     // Waves: it runs once for each of [firstWave, lastWave), as `turn` makes it for that one. Native code leaves out
-    // those after one in which nothing waits.
-    uint32_t firstWave = 0, lastWave = 1;
+    // those after one in which nothing waits. together: in each wave so many stages run, this and those behind it.
+    uint32_t firstWave = 0, lastWave = 1, together = 1;
     std::function<void(Stage& stage, uint32_t wave)> turn;
     bool watched = true;  // else it is brought to its end whoever watches
 };
