@@ -24,9 +24,30 @@ FN bool trianglesMeet(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 f) {
 
 FN uint fewer(uint a, uint b) { return a < b ? a : b; }
 FN vec3 placedPoint(PatternPiece p, vec3 v) { return p.position + p.x * v.x + p.y * v.y + p.z * v.z; }
-FN float largestSide(PatternPiece p) {
-    return sqrtExact(larger(larger(dot3(p.x, p.x), dot3(p.y, p.y)), dot3(p.z, p.z))) * 1.00001f;
+
+// A place or direction of the world as a piece has it in its own space.
+FN vec3 inPiece(PatternPiece p, vec3 v) {
+    return vec3(divExact(dot3(v, p.x), dot3(p.x, p.x)), divExact(dot3(v, p.y), dot3(p.y, p.y)),
+                divExact(dot3(v, p.z), dot3(p.z, p.z)));
 }
+// From one piece's space to another's, in which lengths are at most `scale` times as long.
+struct PieceToPiece {
+    vec3 x, y, z;
+    vec3 origin;
+    float scale;
+};
+FN PieceToPiece pieceToPiece(PatternPiece from, PatternPiece to) {
+    PieceToPiece m = {};
+    m.x = inPiece(to, from.x);
+    m.y = inPiece(to, from.y);
+    m.z = inPiece(to, from.z);
+    m.origin = inPiece(to, from.position - to.position);
+    float longest = larger(larger(dot3(from.x, from.x), dot3(from.y, from.y)), dot3(from.z, from.z));
+    float shortest = smaller(smaller(dot3(to.x, to.x), dot3(to.y, to.y)), dot3(to.z, to.z));
+    m.scale = sqrtExact(divExact(longest, shortest)) * 1.0001f;
+    return m;
+}
+FN vec3 carriedPoint(IN(PieceToPiece) m, vec3 v) { return m.origin + m.x * v.x + m.y * v.y + m.z * v.z; }
 
 // Whether three points lie on one side of the plane through `a` with normal n, or in it.
 FN bool liesAside(vec3 n, vec3 a, vec3 p, vec3 q, vec3 r) {
@@ -36,45 +57,74 @@ FN bool liesAside(vec3 n, vec3 a, vec3 p, vec3 q, vec3 r) {
     return (x >= 0.0f && y >= 0.0f && z >= 0.0f) || (x <= 0.0f && y <= 0.0f && z <= 0.0f);
 }
 
-// Of triangle a, b, c against run j of piece q's mesh n, which lies within the sphere.
-FN bool triangleMeets(PatternEnv env, vec3 a, vec3 b, vec3 c, PatternPiece q, uint n, uint j, vec3 centre,
-                      float radius) {
-    vec3 normal = cross3(b - a, c - a);
-    float off = dot3(normal, centre - a);
-    if (off * off > radius * radius * dot3(normal, normal)) return false;
-    uint end = fewer(env.meshes.v[n].triangleCount, (j + 1u) * kClusterTriangles);
+// The square of the distance from a place to the box around three points.
+FN float outsideOf(float at, float a, float b, float c) {
+    return larger(larger(smaller(smaller(a, b), c) - at, at - larger(larger(a, b), c)), 0.0f);
+}
+FN float boxDistance2nd(vec3 at, vec3 a, vec3 b, vec3 c) {
+    vec3 off = vec3(outsideOf(at.x, a.x, b.x, c.x), outsideOf(at.y, a.y, b.y, c.y), outsideOf(at.z, a.z, b.z, c.z));
+    return dot3(off, off);
+}
+
+// Of triangle d, e, f against run i of mesh m, which lies within the sphere, all in the mesh's space.
+FN bool triangleMeets(PatternEnv env, uint m, uint i, vec4 sphere, vec3 d, vec3 e, vec3 f) {
+    vec3 middle = vec3(sphere.x, sphere.y, sphere.z);
+    vec3 normal = cross3(e - d, f - d);
+    float off = dot3(normal, middle - d);
+    if (off * off > sphere.w * sphere.w * dot3(normal, normal) || boxDistance2nd(middle, d, e, f) > sphere.w * sphere.w)
+        return false;
+    uint end = fewer(env.meshes.v[m].triangleCount, (i + 1u) * kClusterTriangles);
     bool meet = false;
-    for (uint t = j * kClusterTriangles; t < end && !meet; ++t) {
-        uint to = env.meshes.v[n].firstVertex + 3u * t;
-        vec3 d = placedPoint(q, env.corners.v[to]);
-        vec3 e = placedPoint(q, env.corners.v[to + 1u]);
-        vec3 f = placedPoint(q, env.corners.v[to + 2u]);
-        if (liesAside(normal, a, d, e, f) || liesAside(cross3(e - d, f - d), d, a, b, c)) continue;
+    for (uint s = i * kClusterTriangles; s < end && !meet; ++s) {
+        uint at = env.meshes.v[m].firstVertex + 3u * s;
+        vec3 a = env.corners.v[at];
+        vec3 b = env.corners.v[at + 1u];
+        vec3 c = env.corners.v[at + 2u];
+        if (liesAside(normal, d, a, b, c) || liesAside(cross3(b - a, c - a), a, d, e, f)) continue;
         meet = trianglesMeet(a, b, c, d, e, f);
     }
     return meet;
 }
 
-// Run i of a mesh against run j of another, which lies within the sphere.
-FN bool clustersMeet(PatternEnv env, PatternPiece p, uint m, uint i, PatternPiece q, uint n, uint j, vec3 centre,
-                     float radius) {
-    uint end = fewer(env.meshes.v[m].triangleCount, (i + 1u) * kClusterTriangles);
+// Run j of mesh n, carried into the space of mesh m, against run i of that.
+FN bool clustersMeet(PatternEnv env, uint m, uint i, vec4 sphere, uint n, uint j, IN(PieceToPiece) carry) {
+    uint end = fewer(env.meshes.v[n].triangleCount, (j + 1u) * kClusterTriangles);
     bool meet = false;
-    for (uint s = i * kClusterTriangles; s < end && !meet; ++s) {
-        uint at = env.meshes.v[m].firstVertex + 3u * s;
-        vec3 a = placedPoint(p, env.corners.v[at]);
-        vec3 b = placedPoint(p, env.corners.v[at + 1u]);
-        vec3 c = placedPoint(p, env.corners.v[at + 2u]);
-        meet = triangleMeets(env, a, b, c, q, n, j, centre, radius);
+    for (uint t = j * kClusterTriangles; t < end && !meet; ++t) {
+        uint at = env.meshes.v[n].firstVertex + 3u * t;
+        vec3 d = carriedPoint(carry, env.corners.v[at]);
+        vec3 e = carriedPoint(carry, env.corners.v[at + 1u]);
+        vec3 f = carriedPoint(carry, env.corners.v[at + 2u]);
+        meet = triangleMeets(env, m, i, sphere, d, e, f);
+    }
+    return meet;
+}
+FN bool spheresMeet(vec4 a, vec4 b) {
+    vec3 off = vec3(a.x - b.x, a.y - b.y, a.z - b.z);
+    float reach = a.w + b.w;
+    return dot3(off, off) <= reach * reach;
+}
+// Whether triangles of piece q, whose mesh is n, run through those of mesh m.
+FN bool surfacesMeet(PatternEnv env, uint m, uint n, IN(PieceToPiece) carry) {
+    vec3 middle = env.meshes.v[m].centre;
+    vec4 all = vec4(middle.x, middle.y, middle.z, env.meshes.v[m].radius);
+    bool meet = false;
+    for (uint j = 0u; j < env.meshes.v[n].clusterCount && !meet; ++j) {
+        vec4 l = env.clusters.v[env.meshes.v[n].firstCluster + j];
+        vec3 c = carriedPoint(carry, vec3(l.x, l.y, l.z));
+        vec4 run = vec4(c.x, c.y, c.z, l.w * carry.scale);
+        if (!spheresMeet(run, all)) continue;
+        for (uint i = 0u; i < env.meshes.v[m].clusterCount && !meet; ++i) {
+            vec4 k = env.clusters.v[env.meshes.v[m].firstCluster + i];
+            if (spheresMeet(run, k)) meet = clustersMeet(env, m, i, k, n, j, carry);
+        }
     }
     return meet;
 }
 
 // Whether a point of the world is inside of a piece: a ray from it leaves through an odd number of triangles.
 FN bool isWithin(PatternEnv env, PatternPiece p, uint m, vec3 point) {
-    vec3 off = point - p.position;
-    vec3 o = vec3(divExact(dot3(off, p.x), dot3(p.x, p.x)), divExact(dot3(off, p.y), dot3(p.y, p.y)),
-                  divExact(dot3(off, p.z), dot3(p.z, p.z)));
+    vec3 o = inPiece(p, point - p.position);
     vec3 away = o - env.meshes.v[m].centre;
     float radius = env.meshes.v[m].radius;
     if (!(env.meshes.v[m].inner > 0.0f) || dot3(away, away) > radius * radius) return false;
@@ -120,24 +170,7 @@ FN bool piecesMeet(PatternEnv env, PatternPiece p, PatternPiece q) {
     vec4 sphere = sphereOf(env, q);
     vec4 spherePs = sphereOf(env, p);
     if (standApart(env, p, q, vec3(sphere.x - spherePs.x, sphere.y - spherePs.y, sphere.z - spherePs.z))) return false;
-    float scaleP = largestSide(p);
-    float scaleQ = largestSide(q);
-    bool meet = false;
-    for (uint i = 0u; i < env.meshes.v[m].clusterCount && !meet; ++i) {
-        vec4 k = env.clusters.v[env.meshes.v[m].firstCluster + i];
-        vec3 c = placedPoint(p, vec3(k.x, k.y, k.z));
-        float r = k.w * scaleP;
-        vec3 off = vec3(sphere.x, sphere.y, sphere.z) - c;
-        if (dot3(off, off) > (r + sphere.w) * (r + sphere.w)) continue;
-        for (uint j = 0u; j < env.meshes.v[n].clusterCount && !meet; ++j) {
-            vec4 l = env.clusters.v[env.meshes.v[n].firstCluster + j];
-            vec3 centre = placedPoint(q, vec3(l.x, l.y, l.z));
-            float radius = l.w * scaleQ;
-            vec3 apart = centre - c;
-            float reach = r + radius;
-            if (dot3(apart, apart) <= reach * reach) meet = clustersMeet(env, p, m, i, q, n, j, centre, radius);
-        }
-    }
+    bool meet = surfacesMeet(env, m, n, pieceToPiece(q, p));
     if (!meet) meet = isWithin(env, q, n, placedPoint(p, env.meshes.v[m].within)) || isWithin(env, p, m, placedPoint(q, env.meshes.v[n].within));
     return meet;
 }
