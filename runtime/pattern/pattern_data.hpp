@@ -25,6 +25,7 @@ struct PatternLimits {
     uint32_t maxPieces = 4'000'000;  // tried, all in all
     uint32_t maxShapes = 200'000;    // symbols derived, and as many more as shapesPerSet says
     uint32_t shapesPerSet = 100;     // for each set that stands
+    uint32_t maxWaiting = 500'000;   // symbols at once
     uint32_t maxDepth = 4096;        // productions one behind the other
 };
 

@@ -44,6 +44,10 @@ Status withinLimits(const PatternStatus& status, const PatternLimits& limits) {
         return Failure("pattern",
                        "more than " + std::to_string(limits.maxPieces) +
                            " meshes were tried; does a rule go on for ever? A condition or larger steps end it");
+    if (status.mostItems > limits.maxWaiting)
+        return Failure("pattern", "more than " + std::to_string(limits.maxWaiting) +
+                                      " symbols wait at once; does a rule go on for ever? A condition or fewer symbols "
+                                      "behind each other end it");
     if (std::max(status.shapes, status.mostItems) > limits.maxShapes + uint64_t(limits.shapesPerSet) * status.standing)
         return Failure("pattern", std::to_string(status.shapes) + " symbols have led to only " +
                                       std::to_string(status.standing) +

@@ -238,4 +238,12 @@ TEST_CASE("a rule without an end is stopped by a limit that is named") {
     const Result<GrownPattern> none = barren.tryGrow({.maxShapes = 3000, .shapesPerSet = 10});
     REQUIRE_FALSE(none);
     CHECK(none.failure().text().find("does a rule go on for ever?") != std::string::npos);
+
+    // What stands as it is, without meeting others, pays for as many symbols as it likes.
+    Scene free(patterntest::torus(2, .7f, 48, 24), 128);
+    free.addGrammar("A -> [T(0.1, 0, 0) A] [T(0, 0.1, 0) A] I(\"box\")");
+    free.plant({2.7f, 0, 0}, {0, 0, 1});
+    const Result<GrownPattern> most = free.tryGrow({.maxWaiting = 50000});
+    REQUIRE_FALSE(most);
+    CHECK(most.failure().text().find("more than 50000 symbols wait at once") != std::string::npos);
 }
