@@ -23,8 +23,8 @@ size_t endOf(std::string_view line, size_t at, Holds&& holds) {
 }
 
 TokenKind kindOfName(std::string_view name) {
-    constexpr std::array<std::string_view, 9> kWords{"param", "context", "let", "width",    "include",
-                                                     "and",   "or",      "not", "otherwise"};
+    constexpr std::array<std::string_view, 10> kWords{"param", "context", "let", "width",     "include",
+                                                      "and",   "or",      "not", "otherwise", "avoid"};
     if (std::ranges::find(kWords, name) != kWords.end()) return TokenKind::word;
     return name[0] >= 'A' && name[0] <= 'Z' ? TokenKind::name : TokenKind::plain;
 }

@@ -18,6 +18,19 @@ std::vector<uint32_t> closeGaps(std::vector<T>& values, Stays&& stays) {
     return to;
 }
 
+// Lists of chunks lead past those that there aren't any more.
+void skipGaps(std::vector<Chunk>& chunks) {
+    const auto there = [&](uint32_t at) {
+        while (at != kNoIndex && chunks[at].marks == 0) at = chunks[at].nextSibling;
+        return at;
+    };
+    for (Chunk& c : chunks) {
+        if (c.marks == 0) continue;
+        c.firstChild = there(c.firstChild);
+        c.nextSibling = there(c.nextSibling);
+    }
+}
+
 void renumber(uint32_t& index, const std::vector<uint32_t>& to) {
     if (index != kNoIndex) index = to[index];
 }
@@ -25,6 +38,7 @@ void renumber(uint32_t& index, const std::vector<uint32_t>& to) {
 }  // namespace
 
 void compactRecords(GrowthRecords& g) {
+    skipGaps(g.chunks);
     const auto nodes = closeGaps(g.nodes, [](const Node& n) { return !isGap(n); });
     const auto chunks = closeGaps(g.chunks, [](const Chunk& c) { return c.marks != 0; });
     const auto branches = closeGaps(g.branches, [](const BranchRecord& b) { return b.firstChunk != kNoIndex; });

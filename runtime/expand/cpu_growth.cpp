@@ -25,10 +25,16 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     a.out.chunks.resize(room.chunks);
     a.out.branches.resize(room.branches);
     a.out.leaves.resize(room.leaves);
-    a.status = freshStatus(inputs.limits, room, cut);
+    a.status = freshStatus(inputs, room, cut);
     std::vector<uint32_t> pruned = keyWords(inputs.pruned);
     a.status.pruned = {pruned.data()};
     a.status.prunedCount = uint32_t(inputs.pruned.size());
+    const bool avoids = a.status.avoidReach > 0;
+    std::vector<uint32_t> cells(avoids ? a.status.avoidCells : 0, kNoIndex), entries(2 * size_t(room.avoid)),
+        bounds(avoids ? room.chunks : 0);
+    a.status.avoidHeads = {cells.data()};
+    a.status.avoidEntries = {entries.data()};
+    a.status.avoidBounds = {bounds.data()};
     a.waves = wavesOfSeeds(uint32_t(inputs.seeds.size()), inputs.limits, room);
     std::vector<RuleMapRef> grammars(inputs.grammars.begin(), inputs.grammars.end());
     uint64_t words = 0;
@@ -59,7 +65,8 @@ Attempt attempt(const GrowthInputs& inputs, const GrowthRoom& room, const Growth
     plainly.run(packing);
     const ItemQueues queues = {{{even.data()}, {odd.data()}}};
     const uint32_t most = uint32_t(a.waves.size()) - 1, marched = march ? march(env, queues, most) : 0;
-    StageList growth = growthStages({}, env, queues, inputs.limits, marched, march ? marched : most);
+    StageList growth =
+        growthStages({}, env, queues, inputs.limits, avoids ? room.rounds : 0, marched, march ? marched : most);
     plainly.run(growth);
     a.waves.resize(wavesOf(a.waves) + 1);
     return a;
@@ -102,6 +109,7 @@ Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room, const M
     Status usable = checkInputs(inputs);
     if (!usable) return usable.failure();
     room.items = std::max(room.items, uint32_t(inputs.seeds.size()));
+    if (reachOf(inputs) > 0) room.avoid = std::max(room.avoid, 2 * room.nodes);
     GrowthCut cut = noCut(inputs.limits);
     uint32_t overflow = 0, enlarged = 0;
     Verdict verdict = Verdict::impossible;
@@ -124,6 +132,7 @@ Result<CpuGrowth> growOnCpu(const GrowthInputs& inputs, GrowthRoom room, const M
         out.stats.overflow = overflow;
         out.stats.enlarged = enlarged;
         out.stats.expansions = 1;
+        compactRecords(out);
         return std::move(a.out);
     }
     return limitFailure(verdict, inputs.limits);

@@ -100,9 +100,9 @@ bool sound(const PlantRecords& p, uint32_t surfaces) {
         if (!std::isfinite(c.entry.uv.x + c.entry.uv.y)) return false;
         for (uint32_t link : {c.firstChild, c.nextSibling})
             if (link != kNoIndex && ++linked[link] > 1) return false;
-        // A step away from the seed each, so that no way along links has no end.
+        // Further away from the seed each, so that no way along links has no end.
         for (uint32_t link : {c.next, c.firstChild})
-            if (link != kNoIndex && (p.chunks[link].parent != i || depth(link) != (c.depth >> 16) + 1)) return false;
+            if (link != kNoIndex && (p.chunks[link].parent != i || depth(link) <= c.depth >> 16)) return false;
         if (c.next != kNoIndex && p.chunks[c.next].branch != c.branch) return false;
         if (c.nextSibling != kNoIndex && p.chunks[c.nextSibling].parent != c.parent) return false;
         if (c.parent != kNoIndex && depth(c.parent) >= c.depth >> 16) return false;

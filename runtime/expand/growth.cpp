@@ -15,7 +15,8 @@ constexpr uint32_t kMostAttempts = 48;
 // What growth begins with, the frozen plants being there already.
 GrowStatus withFrozen(GrowStatus status, const FrozenSum& frozen) {
     const GrowthRecords& r = frozen.records;
-    status.chunks = uint32_t(r.chunks.size());
+    status.chunks = status.frozenChunks = status.waveChunks = uint32_t(r.chunks.size());
+    status.chunkGroups[0] = groupsOf(status.chunks, 1);
     status.nodes = status.frozenNodes = uint32_t(r.nodes.size());
     status.branches = status.frozenBranches = uint32_t(r.branches.size());
     status.leaves = uint32_t(r.leaves.size());
@@ -53,7 +54,8 @@ Status Growth::uploadInputs(Commands& commands, const GrowthInputs& inputs, cons
         return s;
     const std::vector<Wave> waves = wavesOfSeeds(uint32_t(inputs.seeds.size()), inputs.limits, room_);
     if (densityWords(inputs.limits, 0) > 1) commands.fill(density_, 0);
-    return allDone({uploadStatus(commands, inputs, withFrozen(freshStatus(inputs.limits, room_, cut), frozen)),
+    if (reachOf(inputs) > 0) commands.fill(avoidHeads_, kNoIndex);
+    return allDone({uploadStatus(commands, inputs, withFrozen(freshStatus(inputs, room_, cut), frozen)),
                     commands.upload(waves_, waves), commands.upload(items_[0], itemsOfSeeds(inputs.seeds)),
                     uploadTables(commands, inputs)});
 }
@@ -69,7 +71,9 @@ Result<Growth::Outcome> Growth::attempt(const GrowthInputs& inputs, const Frozen
                 return packed;
         }
         readBack(run, last);
-        return run.add(growthStages(shaders(), env, itemQueues(), inputs.limits, first, last), inputs.watch);
+        return run.add(growthStages(shaders(), env, itemQueues(), inputs.limits, reachOf(inputs) > 0 ? room_.rounds : 0,
+                                    first, last),
+                       inputs.watch);
     };
     Outcome outcome;
     const auto waitsStill = [&](const Run& run, uint32_t last) -> Result<bool> {

@@ -63,6 +63,7 @@ class Growth {
     struct Origin : GrownFrom {
         GrowthLimits limits;
         std::vector<RuleMapRef> maps;
+        bool avoids = false;  // some stems keep a distance
     };
     struct Outcome {
         GrowStatus status;
@@ -75,6 +76,7 @@ class Growth {
     Status ensure(Buffer& buffer, const char* name, uint64_t bytes) { return ensureRoom(device_, buffer, name, bytes); }
     Status makeTables(const GrowthInputs& inputs);
     void noticeFeatures(const GrowthInputs& inputs);
+    Status makeAvoidRoom(const GrowthInputs& inputs, const GrowthRecords& frozen);
     Status makeQueues(const GrowthInputs& inputs);
     Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen);
     Status makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen, bool spare);  // with room for edits
@@ -173,6 +175,7 @@ class Growth {
     DoubleBuffered<Links> links_;
     Buffer items_[2], status_, pruned_, waves_, grammars_, tables_, noTables_, density_;
     Buffer again_, marks_, lists_, edits_, results_, firstLeaves_, nextLeaves_, touched_, nodesWent_, leavesWent_;
+    Buffer avoidHeads_, avoidEntries_, avoidBounds_;
     bool touchedIsNew_ = false;  // and holds nothing yet
     bool chained_ = false;       // leaves on the nodes that are drawn are chained
     bool tablesStand_ = false;   // tables_ and grammars_ hold what is drawn was grown by

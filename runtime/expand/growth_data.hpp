@@ -45,6 +45,9 @@ struct GrowthInputs {
     // One a grammar, metres, or empty: shapes of this width grow on the coarsest level whose texels are no wider.
     // 0: on the finest.
     std::span<const float> widths;
+    // The same: how far its stems stay away from stems of such grammars and from frozen ones. 0: they don't. Where any
+    // does, each edit grows all anew.
+    std::span<const float> avoid;
     std::span<const Seed> seeds;
     // Keys of branches (their first chunk's) that are cut away with all that would follow from them; ascending, none
     // twice. One that no branch has does nothing.
@@ -110,6 +113,9 @@ struct GrowthStats {
 // Room to begin with, in records; it grows by need and is kept.
 struct GrowthRoom {
     uint32_t chunks = 8192, nodes = 65536, branches = 8192, leaves = 65536, items = 4096;
+    uint32_t avoid = 0;   // places of spans in the grid of stems that keep a distance
+    uint32_t rounds = 6;  // in which each wave decides about these; what is left then is for a single group
+    float grid = 0;       // metres: GrowStatus::gridReach at least
 };
 
 }  // namespace espalier

@@ -4,6 +4,7 @@
 #include "runtime/expand/growth_plan.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -13,6 +14,7 @@ namespace espalier {
 namespace {
 
 constexpr uint64_t kWholeWave = 1ull << 32;
+constexpr uint32_t kMostAvoid = 1u << 28, kMostRounds = 64;
 constexpr size_t kMostGrammars = 1u << 16;  // as an item's symbol holds them
 
 bool finite(const Seed& seed) {
@@ -80,6 +82,12 @@ Status checkInputs(const GrowthInputs& inputs) {
     if (!inputs.widths.empty() && inputs.widths.size() != inputs.grammars.size())
         return Failure("growth", std::to_string(inputs.widths.size()) + " widths for " +
                                      std::to_string(inputs.grammars.size()) + " grammars");
+    if (!inputs.avoid.empty() && inputs.avoid.size() != inputs.grammars.size())
+        return Failure("growth", std::to_string(inputs.avoid.size()) + " distances for " +
+                                     std::to_string(inputs.grammars.size()) + " grammars");
+    for (float distance : inputs.avoid)
+        if (!(distance >= 0) || !std::isfinite(distance))
+            return Failure("growth", "a distance that stems keep must be a finite number of metres, 0 or more");
     for (size_t i = 1; i < inputs.pruned.size(); ++i)
         if (inputs.pruned[i - 1] >= inputs.pruned[i]) return Failure("growth", "keys of pruned branches must ascend");
     for (size_t i = 0; i < inputs.seeds.size(); ++i) {
@@ -136,6 +144,7 @@ std::vector<GrammarTables> placeTables(const GrowthInputs& inputs, uint64_t& wor
         t.code = take(uint64_t(map.codeCount) * 2);
         t.sites = take(map.siteCount);
         t.width = inputs.widths.empty() ? 0.0f : inputs.widths[i];
+        t.avoid = inputs.avoid.empty() ? 0.0f : inputs.avoid[i];
     }
     return tables;
 }
@@ -144,7 +153,16 @@ GrowthCut noCut(const GrowthLimits& limits) {
     return {limits.maxDepth, 0};
 }
 
-GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const GrowthCut& cut) {
+float reachOf(const GrowthInputs& inputs) {
+    return inputs.avoid.empty() ? 0 : *std::ranges::max_element(inputs.avoid);
+}
+
+uint32_t avoidCells(const GrowthRoom& room) {
+    return std::bit_ceil(std::clamp(room.avoid / 2, 1024u, 1u << 24));
+}
+
+GrowStatus freshStatus(const GrowthInputs& inputs, const GrowthRoom& room, const GrowthCut& cut) {
+    const GrowthLimits& limits = inputs.limits;
     GrowStatus s{};
     s.chunkCapacity = room.chunks;
     s.nodeCapacity = room.nodes;
@@ -159,6 +177,11 @@ GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const
     s.walkMode = uint32_t(limits.walk);
     s.tangentMode = uint32_t(limits.tangents);
     s.leafDensityCap = limits.leafDensityCap;
+    s.avoidReach = reachOf(inputs);
+    s.gridReach = std::max(s.avoidReach, room.grid);
+    s.avoidCells = avoidCells(room);
+    s.avoidCapacity = room.avoid;
+    s.chunkGroups[1] = s.chunkGroups[2] = 1;
     return s;
 }
 
@@ -187,29 +210,40 @@ Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const Growt
             return Verdict::cut;
         }
     }
-    bool complete = itemsFit && chunksFit;
+    const bool counts = itemsFit && chunksFit;
+    const bool gridFits = status.avoidTaken <= room.avoid && status.gridNeed == 0;
+    const bool complete = counts && gridFits && status.waveUndecided == 0;
     if (complete && status.leaves > limits.maxLeaves) return Verdict::tooManyLeaves;
     bool fits =
         complete && status.nodes <= room.nodes && status.branches <= room.branches && status.leaves <= room.leaves;
     if (fits) return Verdict::complete;
-    bool terminalsRan = complete && status.nodes <= room.nodes && status.branches <= room.branches;
+    const bool nodesFit = status.nodes <= room.nodes && status.branches <= room.branches;
+    const bool terminalsRan = complete && nodesFit;
+    // Where stems keep distances an attempt ends with the wave that has found no room: more of them would have come.
+    const bool early = status.avoidReach > 0 && !(nodesFit && gridFits);
+    if (counts && nodesFit && gridFits && status.waveUndecided > 0)
+        room.rounds = std::min(room.rounds * 2, kMostRounds);
+    room.grid = std::max(room.grid, 1.5f * std::bit_cast<float>(status.gridNeed));
     room.items = enlarged(room.items, std::max(status.items, room.items), itemsFit, most);
-    room.chunks = enlarged(room.chunks, status.chunks, complete, most);
-    room.nodes = enlarged(room.nodes, status.nodes, complete, limits.maxNodes);
-    room.branches = enlarged(room.branches, status.branches, complete, most);
+    room.chunks = enlarged(room.chunks, status.chunks, counts, most);
+    room.nodes = enlarged(room.nodes, status.nodes, counts && !(early && status.nodes > room.nodes), limits.maxNodes);
+    room.branches =
+        enlarged(room.branches, status.branches, counts && !(early && status.branches > room.branches), most);
+    room.avoid = enlarged(room.avoid, status.avoidTaken, status.avoidTaken <= room.avoid, kMostAvoid);
     // Leaves are counted only when all else fitted.
     room.leaves = enlarged(room.leaves, status.leaves, terminalsRan || status.leaves == 0, limits.maxLeaves);
     return Verdict::tooSmall;
 }
 
 bool everyShapeGrew(const GrowStatus& status, std::span<const Wave> waves) {
-    uint64_t chunks = 0, nodes = 0;
+    uint64_t chunks = 0, nodes = 0, missing = 0;
     for (size_t w = 0; w < waves.size(); ++w) {
-        if (w < status.limitWave && waves[w].chunks != waves[w].count) return false;
+        if (w < status.limitWave) missing += uint64_t(waves[w].count) - waves[w].chunks;
         chunks += waves[w].chunks;
         nodes += waves[w].nodes;
     }
-    return chunks == status.chunks && nodes == status.nodes;
+    const bool droppedAll = missing == status.dropped || (status.avoidReach > 0 && status.limitWave < waves.size());
+    return droppedAll && status.waveUndecided == 0 && chunks == status.chunks && nodes == status.nodes;
 }
 
 Failure limitFailure(Verdict verdict, const GrowthLimits& limits) {
@@ -231,9 +265,9 @@ void countBytes(GrowthStats& stats) {
 }
 
 void takeCounters(const GrowStatus& status, GrowthStats& stats) {
-    stats.chunks = status.chunks;
-    stats.branches = status.branches;
-    stats.nodes = status.nodes;
+    stats.chunks = status.chunks - status.cutChunks;
+    stats.branches = status.branches - status.cutBranches;
+    stats.nodes = status.nodes - status.cutNodes;
     stats.leaves = status.leaves;
     stats.steps = status.steps;
     stats.inserted = status.inserted;

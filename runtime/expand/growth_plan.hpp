@@ -26,8 +26,13 @@ struct GrowthCut {
 };
 GrowthCut noCut(const GrowthLimits& limits);
 
+// The largest distance that stems keep; 0: none does.
+float reachOf(const GrowthInputs& inputs);
+// Cells of the grid that `room` has places for; a power of two.
+uint32_t avoidCells(const GrowthRoom& room);
+
 // Status and waves at the start of an attempt.
-GrowStatus freshStatus(const GrowthLimits& limits, const GrowthRoom& room, const GrowthCut& cut);
+GrowStatus freshStatus(const GrowthInputs& inputs, const GrowthRoom& room, const GrowthCut& cut);
 uint32_t lastWave(const GrowthCut& cut);  // ExpandEnv::phase of the march
 std::vector<Wave> wavesOfSeeds(uint32_t seeds, const GrowthLimits& limits, const GrowthRoom& room);
 
@@ -37,9 +42,10 @@ enum class Verdict { complete, tooSmall, cut, impossible, tooManyLeaves };
 Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const GrowthLimits& limits, GrowthRoom& room,
               GrowthCut& cut);
 
-// Whether each shape that was queued became a chunk, and each chunk's nodes were counted, in every wave that no limit
-// cuts. It holds of every complete growth, whatever the grammar: where it doesn't, the device doesn't run the kernels
-// as they are written. waves: of a complete attempt without frozen plants.
+// Whether each shape that was queued became a chunk, or was dropped behind what came too near to others, and each
+// chunk's nodes were counted, in every wave that no limit cuts. It holds of every complete growth, whatever the
+// grammar: where it doesn't, the device doesn't run the kernels as they are written. waves: of a complete attempt
+// without frozen plants.
 bool everyShapeGrew(const GrowStatus& status, std::span<const Wave> waves);
 
 // Why limits let nothing grow; verdict: one of the last two.

@@ -38,6 +38,7 @@ void Growth::noticeFeatures(const GrowthInputs& inputs) {
         features |= map.features == 0 ? kRuleFeatures : map.features & kRuleFeatures;
     if (inputs.limits.leafDensityCap > 0) features |= kFeatureDensity;
     if (inputs.limits.tangents == TangentMode::paper) features |= kFeatureJoints;
+    if (reachOf(inputs) > 0) features |= kFeatureAvoid;
     if (features != features_) runner_.dropPrograms(kConstantFeatures);
     features_ = features;
 }
@@ -74,10 +75,20 @@ Status Growth::makeRoom(const GrowthInputs& inputs, const GrowthRecords& frozen,
         Status ok = ensure(*row.buffer, row.name, row.bytes);
         if (!ok) return ok;
     }
+    if (Status ok = makeAvoidRoom(inputs, frozen); !ok) return ok;
     chained_ = false;  // the attempt writes its own
     if (Status ok = ensureChains(plants); !ok) return ok;
     if (Status tables = makeTables(inputs); !tables) return tables;
     return makeQueues(inputs);
+}
+
+// The grid of stems that keep a distance.
+Status Growth::makeAvoidRoom(const GrowthInputs& inputs, const GrowthRecords& frozen) {
+    if (reachOf(inputs) <= 0) return Done{};
+    room_.avoid = std::max<uint32_t>(room_.avoid, 2 * (room_.nodes + uint32_t(frozen.nodes.size())));
+    return allDone({ensure(avoidHeads_, "growth grid", avoidCells(room_) * 4ull),
+                    ensure(avoidEntries_, "growth grid entries", room_.avoid * 8ull),
+                    ensure(avoidBounds_, "growth bounds", (room_.chunks + frozen.chunks.size()) * 4)});
 }
 
 Status Growth::makeQueues(const GrowthInputs& inputs) {
@@ -123,6 +134,11 @@ Status Growth::uploadStatus(Commands& commands, const GrowthInputs& inputs, Grow
         if (!made) return made;
         status.pruned = addressOf<UintBuf>(pruned_);
         status.prunedCount = uint32_t(inputs.pruned.size());
+    }
+    if (status.avoidReach > 0) {
+        status.avoidHeads = addressOf<UintBuf>(avoidHeads_);
+        status.avoidEntries = addressOf<UintBuf>(avoidEntries_);
+        status.avoidBounds = addressOf<UintBuf>(avoidBounds_);
     }
     status.firstLeaves = addressOf<UintBuf>(firstLeaves_);
     status.nextLeaves = addressOf<UintBuf>(nextLeaves_);
@@ -175,8 +191,9 @@ uint64_t Growth::reserved() const {
     for (const Plants& p : plants_.sets) bytes += p.nodes.size() + p.leaves.size();
     for (const Links& l : links_.sets) bytes += l.chunks.size() + l.branches.size();
     for (const Buffer* b :
-         {&items_[0], &items_[1], &status_, &pruned_, &waves_, &grammars_, &tables_, &noTables_, &density_, &again_,
-          &marks_, &lists_, &edits_, &results_, &firstLeaves_, &nextLeaves_, &touched_, &nodesWent_, &leavesWent_})
+         {&avoidHeads_, &avoidEntries_, &avoidBounds_, &items_[0], &items_[1],  &status_,    &pruned_, &waves_,
+          &grammars_,   &tables_,       &noTables_,    &density_,  &again_,     &marks_,     &lists_,  &edits_,
+          &results_,    &firstLeaves_,  &nextLeaves_,  &touched_,  &nodesWent_, &leavesWent_})
         bytes += b->size();
     return bytes;
 }
@@ -221,7 +238,13 @@ void Growth::trim() {
                 {&nextLeaves_, capacityOf<Leaf>(plants.leaves) * 4ull},
                 {&touched_, view_.touched ? touched_.size() : 0},
                 {&nodesWent_, view_.moved.nodes ? nodesWent_.size() : 0},
-                {&leavesWent_, view_.moved.leaves ? leavesWent_.size() : 0}};
+                {&leavesWent_, view_.moved.leaves ? leavesWent_.size() : 0},
+                {&avoidHeads_, 0},
+                {&avoidEntries_, 0},
+                {&avoidBounds_, 0}};
+    room_.avoid = least_.avoid;
+    room_.rounds = least_.rounds;
+    room_.grid = least_.grid;
     for (const auto& row : rows)
         if (row.buffer->size() > row.bytes) *row.buffer = {};
     runner_.trim(laneBytes());
@@ -235,6 +258,7 @@ Growth::Origin Growth::originOf(const GrowthInputs& inputs) {
     origin.frozen.assign(inputs.frozen.begin(), inputs.frozen.end());
     origin.pruned.assign(inputs.pruned.begin(), inputs.pruned.end());
     origin.widths.assign(inputs.widths.begin(), inputs.widths.end());
+    origin.avoids = reachOf(inputs) > 0;
     origin.limits = inputs.limits;
     origin.maps.assign(inputs.grammars.begin(), inputs.grammars.end());
     return origin;

@@ -21,6 +21,7 @@ enum : Things {
     kLanes = 1u << 6,
     kDensity = 1u << 7,
     kFound = 1u << 8,
+    kGrid = 1u << 9,
 };
 
 constexpr Kernel row(const char* shader, Things reads, Things writes) {
@@ -28,12 +29,16 @@ constexpr Kernel row(const char* shader, Things reads, Things writes) {
 }
 constexpr Things kGrown = kQueues | kStatus | kNodes | kLinks;
 constexpr Kernel kPackTables = row("expand/tables.comp", 0, kTables),
-                 kMarch = row("expand/march.comp", kTables, kGrown | kLanes),
-                 kMarchPaper = row("expand/march_paper.comp", kTables, kGrown | kLanes),
+                 kMarch = row("expand/march.comp", kTables, kGrown | kLanes | kGrid),
+                 kMarchPaper = row("expand/march_paper.comp", kTables, kGrown | kLanes | kGrid),
                  kTerminals = row("expand/terminals.comp", kTables | kQueues | kLinks,
                                   kStatus | kNodes | kLeaves | kLanes | kDensity),
                  kBranches = row("expand/branches.comp", kQueues | kStatus | kNodes, kLinks | kDensity),
                  kFit = row("expand/fit.comp", kQueues | kLinks, kStatus | kNodes);
+// Between waves, of stems that keep a distance: expand_avoid.h.
+constexpr Kernel kLook = row("expand/avoid_look.comp", kTables | kNodes | kLinks, kStatus | kGrid),
+                 kDecide = row("expand/avoid_decide.comp", kTables, kStatus | kQueues | kNodes | kLinks | kGrid),
+                 kDecideRest = row("expand/avoid_settle.comp", kTables, kStatus | kQueues | kNodes | kLinks | kGrid);
 // What an edit concerns: expand_again.h.
 constexpr Kernel kFind = row("expand/again_find.comp", kTables | kNodes, kLinks | kFound),
                  kStart = row("expand/again_start.comp", kNodes, kGrown | kLeaves | kFound),
@@ -86,8 +91,27 @@ struct Stages {
             now.wave = wave;
             now.items = queues[wave & 1];
             now.nextItems = queues[(wave + 1) & 1];
-            s.groups.offset = wave * sizeof(Wave) + offsetof(Wave, groups);
+            if (s.groups.thing == kQueues) s.groups.offset = wave * sizeof(Wave) + offsetof(Wave, groups);
         };
+    }
+    Groups overChunks() const { return {{}, shaders.status, offsetof(GrowStatus, chunkGroups), kStatus}; }
+    // Before the first wave: frozen plants, from which stems stay away.
+    void addFrozen(const ExpandEnv& env) {
+        add(kMarching, kLook, env, overChunks());
+        add(kMarching, kDecideRest, env, {});
+    }
+    // Behind a march, in each of its waves.
+    void addAvoidance(const ExpandEnv& env, uint32_t rounds, uint32_t first, uint32_t last) {
+        const size_t marching = list.size() - 1;
+        add(kMarching, kLook, env, overChunks());
+        add(kMarching, kDecide, env, overChunks()).rounds = rounds;
+        add(kMarching, kDecideRest, env, {});
+        list[marching].together = uint32_t(list.size() - marching);
+        for (size_t i = marching + 1; i < list.size(); ++i) {
+            list[i].firstWave = first;
+            list[i].lastWave = last;
+            list[i].turn = list[marching].turn;
+        }
     }
     Groups overNodes() const { return {{}, shaders.status, offsetof(GrowStatus, nodeGroups), kStatus}; }
     Groups overBranches() const { return {{}, shaders.status, offsetof(GrowStatus, branchGroups), kStatus}; }
@@ -103,9 +127,11 @@ StageList tableStages(const GrowthShaders& shaders, const ExpandEnv& env, uint32
 }
 
 StageList growthStages(const GrowthShaders& shaders, ExpandEnv env, const ItemQueues& queues,
-                       const GrowthLimits& limits, uint32_t first, uint32_t last) {
+                       const GrowthLimits& limits, uint32_t avoidRounds, uint32_t first, uint32_t last) {
     Stages stages{shaders, {}};
+    if (avoidRounds > 0 && first == 0) stages.addFrozen(env);
     stages.addWaves(limits.walk == WalkMode::paper ? kMarchPaper : kMarch, env, queues, first, last);
+    if (avoidRounds > 0) stages.addAvoidance(env, avoidRounds, first, last);
     env.wave = last;
     const auto inPhase = [&](uint32_t phase) -> const ExpandEnv& { return env.phase = phase, env; };
     if (limits.tangents == TangentMode::paper)

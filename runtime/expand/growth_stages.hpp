@@ -24,9 +24,10 @@ using ItemQueues = std::array<WorkItemBuf, 2>;  // wave w is in [w & 1]
 // Packs the tables of `grammars` rule maps.
 StageList tableStages(const GrowthShaders& shaders, const ExpandEnv& env, uint32_t grammars);
 // Grows waves [first, last), env.phase being the last that may be grown, then terminals, fit and the structure's hash,
-// which do nothing should wave `last` not be empty.
+// which do nothing should wave `last` not be empty. avoidRounds: GrowthRoom::rounds, 0: no stems keep a
+// distance.
 StageList growthStages(const GrowthShaders& shaders, ExpandEnv env, const ItemQueues& queues,
-                       const GrowthLimits& limits, uint32_t first, uint32_t last);
+                       const GrowthLimits& limits, uint32_t avoidRounds, uint32_t first, uint32_t last);
 // Of a regrowth: finds the chunks that are to be grown again, and queues them in env.items.
 StageList findStages(const GrowthShaders& shaders, const ExpandEnv& env);
 // Grows these, as growthStages(), and all that depends on them. What is drawn changes behind the waves only, if what

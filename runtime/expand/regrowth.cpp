@@ -27,6 +27,8 @@ bool Growth::canRegrow(const GrowthInputs& inputs) const {
     // Counts of leaves by cell and directions at joints are sums over the whole plant.
     if (inputs.limits.walk == WalkMode::paper || inputs.limits.tangents == TangentMode::paper) return false;
     if (inputs.limits.leafDensityCap > 0) return false;
+    // Where one stem gives way another may go on, anywhere.
+    if (origin_.avoids || reachOf(inputs) > 0) return false;
     return inputs.grammars.size() >= origin_.maps.size();
 }
 
@@ -82,7 +84,7 @@ Status Growth::sendEdit(Run& run, const GrowthInputs& inputs, const SeedChanges&
     if (!chained_) commands.fill(firstLeaves_, kNoIndex);
     if (touchedIsNew_) commands.fill(touched_, 0);
 
-    GrowStatus s = freshStatus(inputs.limits, room_, noCut(inputs.limits));
+    GrowStatus s = freshStatus(inputs, room_, noCut(inputs.limits));
     s.chunks = view_.chunkCount;
     s.nodes = view_.nodeCount;
     s.branches = view_.branchCount;

@@ -83,8 +83,8 @@ struct FieldDeclaration {
     Place place;
 };
 
-// The width of the shapes that the grammar grows.
-struct WidthDeclaration {
+// `width` or `avoid`: a length of all that the grammar grows.
+struct LengthDeclaration {
     ExprId value = kNoExpr;
     Place place;
 };
@@ -97,9 +97,9 @@ struct Module {
     std::vector<ContextDeclaration> contexts;
     std::vector<LetDeclaration> lets;
     std::vector<FieldDeclaration> fields;
-    bool degrees = false;                  // angles are in degrees, of grammars of patterns
-    std::vector<WidthDeclaration> widths;  // more than one is a mistake, to be reported
-    std::set<std::string> mistaken;        // names whose statement couldn't be read: who uses them isn't to blame
+    bool degrees = false;                           // angles are in degrees, of grammars of patterns
+    std::vector<LengthDeclaration> widths, avoids;  // more than one of either is a mistake, to be reported
+    std::set<std::string> mistaken;  // names whose statement couldn't be read: who uses them isn't to blame
 };
 
 // Collects diagnostics, up to a number of mistakes and one of warnings that a reader can still use.

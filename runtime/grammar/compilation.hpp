@@ -39,8 +39,7 @@ struct Compilation {
     std::vector<Symbol> symbols;
     std::map<std::string, uint32_t> symbolByName;
     uint32_t startSymbol = 0;  // record index
-    float width = 0;           // if constant
-    uint32_t widthUniform = kNoIndex;
+    FixedLength width, avoid;
 
     std::vector<SymbolRecord> symbolRecords;
     std::vector<RuleRecord> rules;

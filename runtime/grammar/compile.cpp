@@ -40,26 +40,33 @@ void parse(std::string_view text, Parsed& p) {
     p.contentHash = contentHashOf(sources, c.module.files, c.options);
 }
 
-void lowerWidth(grammar::Compilation& c) {
-    const std::string rule = "width";
-    for (size_t i = 0; i < c.module.widths.size(); ++i) {
-        const grammar::WidthDeclaration& w = c.module.widths[i];
-        if (i > 0) c.reporter.error(w.place, rule, "the width is given twice; a grammar has one");
+// What the statement `word` says, if it stands there; called `name` in messages.
+void lowerLength(grammar::Compilation& c, const std::string& word, const std::string& name,
+                 const std::vector<grammar::LengthDeclaration>& declared, FixedLength& length) {
+    for (size_t i = 0; i < declared.size(); ++i) {
+        if (i > 0) c.reporter.error(declared[i].place, word, name + " is given twice; a grammar has one");
         grammar::Env env;
-        env.rule = rule;
-        grammar::Node node = c.expressions.lower(w.value, env);
-        const grammar::Place& place = c.module.exprs[w.value].place;
+        env.rule = word;
+        grammar::Node node = c.expressions.lower(declared[i].value, env);
+        const grammar::Place& place = c.module.exprs[declared[i].value].place;
         if (!c.graph.isFixed(node))
-            c.reporter.error(place, rule, "the width may use numbers and parameters only");
+            c.reporter.error(place, word, name + " may use numbers and parameters only");
         else if (c.graph.isConstant(node) && !(c.graph[node].value >= 0))
-            c.reporter.error(place, rule, "the width can't be negative");
+            c.reporter.error(place, word, name + " can't be negative");
         else if (c.graph.isConstant(node))
-            c.width = c.graph[node].value;
+            length.value = c.graph[node].value;
         else if (i == 0 && c.code.failure.empty()) {
-            c.widthUniform = c.code.uniform(node).slot - grammar::kSlotUniform;
-            if (!c.code.failure.empty()) c.reporter.error(place, rule, c.code.failure);
+            length.uniform = c.code.uniform(node).slot - grammar::kSlotUniform;
+            if (!c.code.failure.empty()) c.reporter.error(place, word, c.code.failure);
         }
     }
+}
+
+void lowerLengths(grammar::Compilation& c) {
+    lowerLength(c, "width", "the width", c.module.widths, c.width);
+    lowerLength(c, "avoid", "the distance", c.module.avoids, c.avoid);
+    if (c.kind != GrammarKind::plants && !c.module.avoids.empty())
+        c.reporter.error(c.module.avoids[0].place, "avoid", "only stems of plants keep a distance");
 }
 
 Result<RuleMap> compile(Parsed& p) {
@@ -80,7 +87,7 @@ Result<RuleMap> compile(Parsed& p) {
         grammar::analyseSymbols(c);
         grammar::lowerGrowth(c);
     }
-    lowerWidth(c);
+    lowerLengths(c);
     if (c.reporter.failed()) return failureOf(c.reporter);
     c.expressions.warnUnused();
     if (c.kind == GrammarKind::plants) grammar::warnUnreached(c);

@@ -52,6 +52,13 @@ struct FieldInfo {
     bool curvature = false;  // the surface's own; else one that is designed
 };
 
+// Of the statements `width` and `avoid`: metres, 0 without one.
+struct FixedLength {
+    uint32_t uniform = kNoIndex;  // of the results that follow from parameters; kNoIndex: it is constant
+    float value = 0;
+    bool operator==(const FixedLength&) const = default;
+};
+
 struct SymbolInfo {
     std::string name;
     uint32_t argCount = 0;
@@ -117,7 +124,9 @@ class RuleMap {
 
     // What the statement `width` says with the parameters as they stand: metres, finite, at least 0; 0 without one.
     // Growth takes the surface as coarse as suits shapes of this width (GrowthInputs::widths).
-    float width() const { return width_; }
+    float width() const { return width_.value; }
+    // The same of `avoid`: how far stems stay away from other stems (GrowthInputs::avoid); 0: they don't.
+    float avoid() const { return avoid_.value; }
 
     // The shipped meshes of plants' terminals that it draws: bit i, of kMesh... i.
     uint32_t terminalMeshes() const;
@@ -177,8 +186,7 @@ class RuleMap {
     std::vector<CodeWord> uniformCode_;
     std::vector<Uniform> uniforms_;
     std::vector<Patch> patches_;
-    uint32_t widthUniform_ = kNoIndex;  // kNoIndex: width_ is constant
-    float width_ = 0;
+    FixedLength width_, avoid_;
 };
 
 // Compiles a text. Never throws, hangs or crashes on any bytes; all mistakes found are in the failure.

@@ -145,7 +145,8 @@ class Parser {
         if (!isRule && atName("field")) return field();
         if (!isRule && atName("angles")) return angles();
         // A word of the language here only: rules, parameters and lets may be named so.
-        if (atName("width") && !arrowFollowsName() && !symbolFollowsName(":")) return width();
+        if (atName("width") && !arrowFollowsName() && !symbolFollowsName(":")) return length(module_.widths);
+        if (atName("avoid") && !arrowFollowsName() && !symbolFollowsName(":")) return length(module_.avoids);
         rule();
     }
     void include() {
@@ -231,14 +232,15 @@ class Parser {
         accept(";");
     }
 
-    void width() {
-        WidthDeclaration w;
-        w.place = now().place;
+    void length(std::vector<LengthDeclaration>& all) {
+        LengthDeclaration length;
+        length.place = now().place;
         rule_ = tokens_[at_++].text;
-        if (at("=")) fail("the width follows without '=': width 0.01");
-        w.value = expression();
+        const std::string name = rule_ == "width" ? "the width" : "the distance";
+        if (at("=")) fail(name + " follows without '=': " + rule_ + " 0.01");
+        length.value = expression();
         accept(";");
-        module_.widths.push_back(w);
+        all.push_back(length);
     }
 
     void rule() {

@@ -126,8 +126,8 @@ RuleMap RuleMapAccess::assemble(grammar::Compilation& c, uint64_t contentHash) {
         map.patches_.push_back({uniform, map.sections_[kSectionDirections].offset + word});
     map.uniformCode_ = c.code.uniformCode;
     for (const grammar::UniformRecord& u : c.code.uniforms) map.uniforms_.push_back({u.code, u.value});
-    map.widthUniform_ = c.widthUniform;
     map.width_ = c.width;
+    map.avoid_ = c.avoid;
     evaluate(map);
     return map;
 }
@@ -144,7 +144,8 @@ void RuleMapAccess::evaluate(RuleMap& map) {
         results.push_back(valueOf(MACHINE u.value));
     }
     for (const RuleMap::Patch& patch : map.patches_) map.words_[patch.word] = floatBitsToUint(results[patch.uniform]);
-    if (map.widthUniform_ != kNoIndex) map.width_ = std::max(results[map.widthUniform_], 0.0f);
+    for (FixedLength* length : {&map.width_, &map.avoid_})
+        if (length->uniform != kNoIndex) length->value = std::max(results[length->uniform], 0.0f);
 }
 
 std::optional<uint32_t> RuleMap::findSymbol(std::string_view name) const {

@@ -112,8 +112,8 @@ bool RuleMap::growsAs(const RuleMap& other) const {
     };
     const auto sameSection = [](Section a, Section b) { return a.offset == b.offset && a.count == b.count; };
     return startSymbol_ == other.startSymbol_ && kind_ == other.kind_ &&
-           std::ranges::equal(fields_, other.fields_, sameField) && widthUniform_ == other.widthUniform_ &&
-           width_ == other.width_ && std::ranges::equal(params_, other.params_, sameParam) &&
+           std::ranges::equal(fields_, other.fields_, sameField) && width_ == other.width_ && avoid_ == other.avoid_ &&
+           std::ranges::equal(params_, other.params_, sameParam) &&
            std::ranges::equal(contexts_, other.contexts_, sameContext) &&
            std::ranges::equal(symbols_, other.symbols_, sameSymbol) &&
            std::ranges::equal(sections_, other.sections_, sameSection) && sameBytes(words_, other.words_) &&

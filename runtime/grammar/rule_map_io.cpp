@@ -9,7 +9,7 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kMagic = 0x4D525345u;  // "ESRM"
-constexpr uint32_t kVersion = 7;
+constexpr uint32_t kVersion = 8;
 constexpr size_t kHeaderBytes = 24;
 static_assert(std::endian::native == std::endian::little);
 
@@ -129,7 +129,7 @@ std::vector<uint8_t> RuleMap::save() const {
     body.putAll(plain.uniformCode_);
     body.putAll(plain.uniforms_);
     body.putAll(plain.patches_);
-    body.put(plain.widthUniform_);
+    body.put(plain.avoid_);
     body.put(plain.width_);
 
     Writer file;
@@ -200,8 +200,8 @@ Result<RuleMap> RuleMap::load(std::span<const uint8_t> bytes, std::string_view f
     map.uniformCode_ = r.all<CodeWord>();
     map.uniforms_ = r.all<Uniform>();
     map.patches_ = r.all<Patch>();
-    map.widthUniform_ = r.get<uint32_t>();
-    map.width_ = r.get<float>();
+    map.avoid_ = r.get<FixedLength>();
+    map.width_ = r.get<FixedLength>();
     if (!r.good() || !r.atEnd()) return refuse("its parts don't add up");
     std::string wrong = RuleMapAccess::verify(map);
     if (!wrong.empty()) return refuse("it is damaged in: " + wrong);

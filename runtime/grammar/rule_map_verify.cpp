@@ -304,8 +304,12 @@ std::string RuleMapAccess::verify(const RuleMap& map) {
         }
     for (const Patch& p : map.patches_)
         v.need(p.uniform < map.uniforms_.size() && p.word < patchable.size() && patchable[p.word], "a patch");
-    v.need(map.widthUniform_ == kNoIndex || map.widthUniform_ < map.uniforms_.size(), "the width");
-    v.need(sane(map.width_) && map.width_ >= 0, "the width");
+    const auto needLength = [&](const FixedLength& length, const char* what) {
+        v.need(length.uniform == kNoIndex || length.uniform < map.uniforms_.size(), what);
+        v.need(sane(length.value) && length.value >= 0, what);
+    };
+    needLength(map.width_, "the width");
+    needLength(map.avoid_, "the distance to keep");
     uint32_t slots = 0;
     for (const ParamInfo& p : map.params_) {
         v.need(p.kind <= ParamKind::colour && p.slot == slots, "a parameter");

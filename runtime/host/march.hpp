@@ -45,6 +45,16 @@ struct Lane {
     uint32_t stage[kChunkNodes * kStagedSample_words];
 };
 
+// Whether the step that ends here is made; if not, another direction is tried.
+inline bool stepHolds(Lane& lane) {
+    Grower& g = lane.c.g;
+    if (!conditionHolds(lane.machine, lane.env, lane.map, g)) return false;
+#ifndef ESPALIER_AGAIN
+    if (keepsDistance(lane.env, g.shape.grammar)) return staysAway(lane.env, lane.c.item, STAND(g), g.trial, g);
+#endif
+    return true;
+}
+
 inline void decideLane(Lane& lane) {
     Grower& g = lane.c.g;
     noteWay(lane.c.site.sceneLayers, g.trial, g.reads);
@@ -54,7 +64,7 @@ inline void decideLane(Lane& lane) {
     const GrowthSite& site = lane.c.site;
     tellPlace(lane.machine, lane.env, lane.frame, site, g.shape.grammar, g.trial,
               g.progress.steps + (g.step.arrived ? 1 : 0));
-    if (g.step.arrived && conditionHolds(lane.machine, lane.env, lane.map, g)) {
+    if (g.step.arrived && stepHolds(lane)) {
         const uint staged = g.step.pending;
         if (g.step.laying != kStepKept) layStep(lane.env, site, g);
         if (notesStaged(site.sceneLayers, g.step.pending - staged))

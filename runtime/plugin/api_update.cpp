@@ -38,7 +38,7 @@ void noteSurfaces(EspContext& context) {
 // The rule maps of growth: those of grammars, then those of variants.
 struct Maps {
     std::vector<RuleMapRef> refs;
-    std::vector<float> widths;
+    std::vector<float> widths, avoid;
     std::vector<uint32_t> ids;             // of grammars; of variants their places: no grammar's id is so small
     std::map<uint32_t, uint32_t> indices;  // of grammars by their ids
     uint32_t firstVariant = 0;
@@ -52,6 +52,7 @@ struct Maps {
         for (size_t i = 0; i < layerOf.size() && i < kMaxLayers; ++i) ref.layerOf[i] = layerOf[i];
         refs.push_back(ref);
         widths.push_back(map.width());
+        avoid.push_back(map.avoid());
     }
 };
 
@@ -146,6 +147,7 @@ EspResult growPlants(EspContext& context) {
     inputs.layers = addressOf<LayerBuf>(context.layerTable);
     inputs.grammars = maps.refs;
     inputs.widths = maps.widths;
+    inputs.avoid = maps.avoid;
     inputs.seeds = planting.seeds;
     inputs.frozen = planting.frozen;
     inputs.pruned = context.pruned;

@@ -12,6 +12,7 @@ void main() {
     bool ready = complete(env);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     for (uint i = env.status.v[0].frozenBranches + gl_GlobalInvocationID.x; ready && i < count; i += lanes) {
+        if (env.branches.v[i].firstChunk == kNoIndex) continue;
         if (env.phase == kTerminalsJoints) {
             sumJoint(env, i);
         } else {

@@ -12,6 +12,8 @@ void main() {
     bool ready = complete(env);
     uint lanes = gl_NumWorkGroups.x * kExpandGroup;
     uvec2 hash = uvec2(0u);
-    for (uint i = env.status.v[0].frozenNodes + gl_GlobalInvocationID.x; ready && i < count; i += lanes) hash += fitNode(env, i);
+    for (uint i = env.status.v[0].frozenNodes + gl_GlobalInvocationID.x; ready && i < count; i += lanes) {
+        if (env.nodes.v[i].radius >= 0.0f) hash += fitNode(env, i);
+    }
     addHash(env, gl_WorkGroupID.x, hash);
 }

@@ -46,6 +46,10 @@ void tell(bool arrived) {
 bool askCondition() {
     Grower g = laneGrower();
     bool good = conditionHolds(MACHINE env, laneTables(), g);
+#ifndef ESPALIER_AGAIN
+    if (good && keepsDistance(env, g.shape.grammar))
+        good = staysAway(env, readWorkItem(env.items, LANE_WORD(kLaneItem)), laneWalk(kLaneStand), laneWalk(kLaneTrial), g);
+#endif
     keepStep(g);
     keepReads(g);
     LANE_WORD(kLaneProgress + kChunkProgress_phase) = g.progress.phase;

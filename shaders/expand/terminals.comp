@@ -24,6 +24,10 @@ void main() {
     for (uint k = 0u; ready; ++k) {
         uint i = first + nodeOfTrip(k);
         if (i >= count) break;
+        if ((kFeatures & kFeatureAvoid) != 0u && env.nodes.v[i].radius < 0.0f) {
+            firstLeaves.v[i] = kNoIndex;
+            continue;
+        }
         NodeFinish finish = finishNode(env, i, hash);
         if (!writes) continue;
         keepFinish(env.nodes, i, finish);

@@ -42,9 +42,25 @@ struct GrowStatus {
     u64 again;               // address of a regrowth's AgainState
     UintBuf firstLeaves;     // of a node, kNoIndex: none; and
     UintBuf nextLeaves;      // of a leaf the next one on its node: kernels alone write these, for regrowths
+    // Of stems that keep a distance (expand_avoid.h):
+    UintBuf avoidHeads;      // [avoidCells] of a hashed grid: the cell's first entry, kNoIndex: none
+    UintBuf avoidEntries;    // [2 * entry]: the node at whose end a span lies there, the cell's next entry
+    UintBuf avoidBounds;     // [chunk]: so many of its nodes stand, at least bits 7..0, at most bits 15..8; 23..16: how
+                             // often it has grown before in vain
+    float avoidReach;        // the largest distance of a grammar, 0: there is none
+    float gridReach;         // a quarter of the grid's cells, no less than that
+    uint gridNeed;           // bits of what it would have to be at least; 0: it is enough
+    uint avoidCells;         // a power of two
+    uint avoidCapacity, avoidTaken;   // entries
+    uint frozenChunks;       // the first ones
+    uint waveFirst;          // the first chunk that the latest wave has begun
+    uint waveChunks, waveUndecided;   // and how many; those whose nodes may stand or not
+    uint chunkGroups[3];     // VkDispatchIndirectCommand over these chunks
+    uint cutNodes, cutBranches, cutChunks;   // gaps from the start: what came too near to others
+    uint dropped;            // shapes that waited behind these
     uint hash[128];          // [slot * 2]: low words, high words
 };
-STATIC_SIZE(GrowStatus, 664);
+STATIC_SIZE(GrowStatus, 760);
 BUFFER(GrowStatusBuf, GrowStatus)
 
 // All that a kernel of expansion is handed, as push constants.
@@ -116,12 +132,15 @@ inline uint loadShared(const uint& memory) { return __atomic_load_n(&memory, __A
 #define STORE_SHARED(memory, value) memory = value
 #endif
 
-// Whether branches are complete and all found room: not while waves are left, nor when something was lost.
-FN bool complete(ExpandEnv env) {
+// Whether all that has grown found room.
+FN bool roomForNodes(ExpandEnv env) {
     return env.status.v[0].nodes <= env.status.v[0].nodeCapacity &&
            env.status.v[0].chunks <= env.status.v[0].chunkCapacity &&
-           env.status.v[0].branches <= env.status.v[0].branchCapacity && env.status.v[0].items == 0u &&
-           env.waves.v[env.wave].count == 0u;
+           env.status.v[0].branches <= env.status.v[0].branchCapacity && env.status.v[0].items == 0u;
+}
+// Whether branches are complete and all found room: not while waves are left, nor when something was lost.
+FN bool complete(ExpandEnv env) {
+    return roomForNodes(env) && env.waves.v[env.wave].count == 0u;
 }
 
 // Index of the lowest bit set; bits != 0.

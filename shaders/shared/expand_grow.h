@@ -5,6 +5,7 @@
 // that are grown again, and leaves those alone that come out as they were) is in shaders/expand/again_claim.h.
 #ifndef ESPALIER_SHARED_EXPAND_GROW_H
 #define ESPALIER_SHARED_EXPAND_GROW_H
+#include "shaders/shared/expand_avoid.h"
 #include "shaders/shared/expand_step.h"
 #ifdef ESPALIER_AGAIN
 #include "shaders/expand/again_claim.h"
@@ -48,11 +49,7 @@ FN uint claimBranch(ExpandEnv env, uint chunk) {
     return atomicAdd(env.status.v[0].branches, 1u);
 }
 // The node that a chunk's first span starts from.
-FN uint previousNodeOf(ExpandEnv env, WorkItem item) {
-    if (item.parent == kNoIndex) return kNoIndex;
-    return item.origin == kNoIndex ? env.chunks.v[item.parent].previousNode
-                                   : env.chunks.v[item.parent].firstNode + item.origin;
-}
+FN uint previousNodeOf(ExpandEnv env, WorkItem item) { return startOfItem(env, item); }
 // Puts the chunk among its parent's; returns the next of these.
 FN uint joinSiblings(ExpandEnv env, WorkItem item, uint chunk) {
     return item.parent == kNoIndex ? kNoIndex : atomicExchange(env.chunks.v[item.parent].firstChild, chunk);
@@ -146,6 +143,9 @@ FN void publishChunk(ExpandEnv env, WorkItem item, GrowthSite site, INOUT(Grower
     c.reads[1] = readWord(g.reads, 1u);
     c.reads[2] = readWord(g.reads, 2u);
     writeChunk(env.chunks, site.chunk, c);
+#ifndef ESPALIER_AGAIN
+    if ((kFeatures & kFeatureAvoid) != 0u && avoids(env)) noteTries(env, site.chunk, item.step);
+#endif
 
     vec4 args = vec4(g.shape.args[0], g.shape.args[1], g.shape.args[2], g.shape.args[3]);
     WorkItem rest = itemOf(item, site, g.shape.key, g.shape.grammar, g.shape.symbol, args, stand);
@@ -173,6 +173,12 @@ FN void addTally(ExpandEnv env, GrowthTally t) {
     atomicAdd(env.status.v[0].inserted, t.inserted);
     atomicAdd(env.status.v[0].stopped, t.stopped);
     atomicAdd(env.status.v[0].deadEnds, t.deadEnds);
+#ifndef ESPALIER_AGAIN
+    if ((kFeatures & kFeatureAvoid) == 0u || !avoids(env)) return;
+    uint before = atomicAdd(env.status.v[0].waveChunks, t.chunks);
+    uint added = groupsAdded(before, t.chunks, 1u);
+    if (added > 0u) atomicAdd(env.status.v[0].chunkGroups[0], added);
+#endif
 }
 
 FN void countChunk(ExpandEnv env, IN(Grower) g, INOUT(GrowthTally) t) {
@@ -231,8 +237,20 @@ FN Grower freshGrower(WorkItem item) {
     return g;
 }
 
+#ifndef ESPALIER_AGAIN
+// Whether an item waited behind a part of a stem that has come too near to another.
+FN bool isDropped(ExpandEnv env, WorkItem item) {
+    if ((kFeatures & kFeatureAvoid) == 0u || !avoids(env) || !stemEnds(env, item.parent, item.origin)) return false;
+    atomicAdd(env.status.v[0].dropped, 1u);
+    return true;
+}
+#endif
+
 // Starts the chunk of an item. False: it is refused, or there is no room for it.
 FN bool beginChunk(MACHINE_PARAM ExpandEnv env, WorkItem item, INOUT(ChunkGrowth) c) {
+#ifndef ESPALIER_AGAIN
+    if (isDropped(env, item)) return false;
+#endif
     if (refused(env, item.depth >> 16u, item.key)) {
         atomicAdd(env.status.v[0].stopped, 1u);
         return false;

@@ -13,8 +13,9 @@ struct GrammarTables {
     uint inputs, layers;     // of symbols and rules
     uint sceneLayers;        // by the scene's numbers, of terminals too
     uint extrudeInputs, extrudeLayers, extrudeParams;
+    float avoid;             // metres that its stems stay away from others; 0: they don't
 };
-STATIC_SIZE(GrammarTables, 56);
+STATIC_SIZE(GrammarTables, 60);
 RECORD_OFFSETS(GrammarTables)
 
 struct SymbolRow {

@@ -5,6 +5,7 @@
 // the loop has one walk, one run of each code and one push in it.
 #ifndef ESPALIER_SHARED_EXPAND_STEP_H
 #define ESPALIER_SHARED_EXPAND_STEP_H
+#include "shaders/shared/expand_avoid.h"
 #include "shaders/shared/expand_stage.h"
 #include "shaders/shared/grower.h"
 #include "shaders/shared/paper_walk.h"
@@ -309,6 +310,35 @@ FN bool conditionHolds(MACHINE_PARAM ExpandEnv env, TableBases map, INOUT(Grower
     return false;
 }
 
+// How far stems of a grammar stay away from others.
+FN float distanceOfGrammar(ExpandEnv env, uint grammar) {
+    return uintBitsToFloat(TABLE(grammar * kGrammarTables_words + kGrammarTables_avoid));
+}
+#ifdef ESPALIER_AGAIN   // where any does, nothing grows again by itself
+FN bool keepsDistance(ExpandEnv, uint) { return false; }
+#else
+FN bool keepsDistance(ExpandEnv env, uint grammar) {
+    return (kFeatures & kFeatureAvoid) != 0u && distanceOfGrammar(env, grammar) > 0.0f;
+}
+// At the end of a step whose condition holds: whether it stays away from what stands. If not, the next direction.
+FN bool staysAway(ExpandEnv env, IN(WorkItem) item, IN(WalkState) from, IN(WalkState) to,
+                  INOUT(Grower) g) {
+    WorldSpan span = {};
+    AvoidSite site = {};
+    site.base = to.walk.place >> 16u;
+    span.from = inWorld(env, from.walk.place >> 16u, from.position, site.base);
+    span.to = inWorld(env, site.base, to.position, site.base);
+    site.branch = branchOfItem(env, item);
+    site.distance = distanceOfGrammar(env, g.shape.grammar);
+    if (verdictOf(env, site, span) == kSpanStands) return true;
+    g.step.turnedBack = true;
+    g.progress.phase = g.step.attempt >= kDetours ? kPhaseDead : kPhaseMarch;
+    g.step.attempt = g.step.attempt + 1u;
+    g.step.fresh = true;
+    return false;
+}
+#endif
+
 // Lays the step's samples on the mesh.
 FN void layStep(ExpandEnv env, GrowthSite site, INOUT(Grower) g) {
     StagedNode start = {};
@@ -341,7 +371,8 @@ FN void finishStep(MACHINE_PARAM ExpandEnv env, TableBases map, INOUT(Grower) g)
     takeArgs(g.shape, readArgs(MACHINE env, at, head));
     g.shape.key = successorKey(g.shape.key, head, TABLE(at + kSuccessorRow_nameHash));
     g.shape.symbol = head & 0xFFFFu;
-    g.progress.phase = g.progress.count >= kChunkNodes ? kPhaseFull : kPhaseDerive;
+    bool full = g.progress.count >= kChunkNodes || (keepsDistance(env, g.shape.grammar) && g.progress.steps >= kAvoidSteps);
+    g.progress.phase = full ? kPhaseFull : kPhaseDerive;
 }
 
 ESPALIER_END

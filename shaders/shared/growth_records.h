@@ -48,7 +48,7 @@ struct WorkItem {
     uint branch;         // the branch that it carries on, kNoIndex: it begins one
     uint seed;           // index of the seed that it comes from
     uint depth;          // bits 31..16 chunks one after another from the seed, 15..0 branches (0: the seed's own)
-    uint step;           // bit 31 kItemAgain, 23..0 steps of the grammar since its branch began
+    uint step;           // bit 31 kItemAgain, 30..24 tries in vain (expand_avoid.h), 23..0 steps of the grammar since its branch began
 };
 STATIC_SIZE(WorkItem, 80);
 RECORD_ACCESS(WorkItem)

@@ -336,10 +336,11 @@ CONST_UINT(kFeatureWorld, 2u);      // inputs that take the place in the world: 
 CONST_UINT(kFeatureSurface, 4u);    // layers, curvature
 CONST_UINT(kFeatureHardCode, 8u);   // operations from kOpFloor on that aren't a single instruction
 CONST_UINT(kFeatureColours, 16u);   // leaves whose colour isn't the same wherever their shape is drawn
-CONST_UINT(kFeatureDensity, 32u);   // the last two are asked for by GrowthLimits: a cap on leaves,
+CONST_UINT(kFeatureDensity, 32u);   // these two are asked for by GrowthLimits: a cap on leaves,
 CONST_UINT(kFeatureJoints, 64u);    // and the paper's tangents
+CONST_UINT(kFeatureAvoid, 128u);    // stems that keep a distance: GrowthInputs::avoid
 CONST_UINT(kRuleFeatures, 31u);
-CONST_UINT(kAllFeatures, 127u);
+CONST_UINT(kAllFeatures, 255u);
 #if !defined(__cplusplus) && defined(ESPALIER_TABLES)
 layout(constant_id = kConstantFeatures) const uint kFeatures = kAllFeatures;
 #else

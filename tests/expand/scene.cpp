@@ -100,6 +100,7 @@ Result<CpuGrowth> Scene::growOnCpu(const March& march) {
     in.layers = {layers.data()};
     in.grammars = refs;
     in.widths = widths;
+    in.avoid = avoid;
     in.seeds = seeds_;
     in.pruned = pruned;
     in.limits = limits;
@@ -138,6 +139,7 @@ Status Scene::grow(Device& device, Growth& growth) {
     in.layers = {reinterpret_cast<LayerRef*>(upload(layers, "layers"))};
     in.grammars = refs;
     in.widths = widths;
+    in.avoid = avoid;
     in.seeds = seeds_;
     in.pruned = pruned;
     in.limits = limits;

@@ -41,7 +41,7 @@ class Scene {
     std::vector<FrozenPlant> frozen;  // see GrowthInputs::frozen; not for growOnCpu
     const SurfaceData& surface() const { return surface_; }
     GrowthLimits limits;
-    std::vector<float> widths;
+    std::vector<float> widths, avoid;        // see GrowthInputs
     const GrowthChanges* changes = nullptr;  // see GrowthInputs::changes
     GrowthWatch* watch = nullptr;            // see GrowthInputs
     bool native = false;                     // see there; tests are of shaders where they don't say otherwise

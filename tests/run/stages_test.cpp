@@ -39,7 +39,8 @@ struct Lists {
         limits.leafDensityCap = 1;
     }
     std::vector<StageList> ofGrowth() const {
-        return {tableStages(shaders, env, 1), growthStages(shaders, env, {}, limits, 0, 2), findStages(shaders, env),
+        return {tableStages(shaders, env, 1), growthStages(shaders, env, {}, limits, 0, 0, 2),
+                growthStages(shaders, env, {}, limits, 2, 0, 2), findStages(shaders, env),
                 regrowthStages(shaders, env, {}, 0, 2)};
     }
 };
@@ -99,7 +100,7 @@ TEST_CASE("each stage of growth waits for the one before, but leaves move beside
     CHECK(waitsOf(compactionStages(lists.shaders, {})) == std::vector<bool>{false, true, false});
     // A wave waits for the one before it.
     for (const StageList& list :
-         {growthStages(lists.shaders, lists.env, {}, lists.limits, 0, 2), roofStages({}, {}, 0, 2)})
+         {growthStages(lists.shaders, lists.env, {}, lists.limits, 0, 0, 2), roofStages({}, {}, 0, 2)})
         CHECK(waitsOf({list[0], list[0]}) == std::vector<bool>{false, true});
 }
 
@@ -112,7 +113,7 @@ TEST_CASE("native code has each kernel that it may be handed") {
     all.push_back(patternHashStages({}, {}));
     GrowthLimits paper;
     paper.walk = WalkMode::paper;
-    all.push_back(growthStages(lists.shaders, lists.env, {}, paper, 0, 1));
+    all.push_back(growthStages(lists.shaders, lists.env, {}, paper, 0, 0, 1));
     for (const StageList& list : all)
         for (const Stage& stage : list) {
             CAPTURE(stage.kernel.shader);

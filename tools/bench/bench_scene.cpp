@@ -114,6 +114,7 @@ Status BenchScene::grow(Growth& growth) {
     in.grammars = {&map, 1};
     in.seeds = seeds_;
     in.limits = limits;
+    if (avoid > 0) in.avoid = {&avoid, 1};
     in.changes = changes;
     return growth.grow(in);
 }
@@ -129,6 +130,7 @@ Result<CpuGrowth> BenchScene::growOnCpu(const GrowthStats& stats) const {
     in.grammars = {&map, 1};
     in.seeds = seeds_;
     in.limits = limits;
+    if (avoid > 0) in.avoid = {&avoid, 1};
     return espalier::growOnCpu(in, {stats.chunks, stats.nodes, stats.branches, stats.leaves, stats.chunks});
 }
 

@@ -28,6 +28,7 @@ class BenchScene {
     void plant(uint32_t count);
     GrowthLimits limits;
     bool native = true;  // see GrowthInputs
+    float avoid = 0;     // see GrowthInputs
 
     // Paints a layer of `size` texels a side; the next growth reads it. False: no memory.
     bool paint(uint32_t layer, uint32_t size, const std::vector<float>& texels);

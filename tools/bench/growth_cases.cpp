@@ -41,6 +41,26 @@ Measured measure(Bench& bench, BenchScene& scene, Growth& growth) {
     return result;
 }
 
+// Stems that keep a distance of two texels beside the same that don't, in turn.
+void avoidRow(Bench& bench, BenchScene& scene, Growth& growth, const std::string& row) {
+    std::vector<double> apart, free;
+    double nodes[2] = {};
+    for (int i = -1; i < bench.options().repeats; ++i)
+        for (const bool keeps : {true, false}) {
+            scene.avoid = keeps ? 2 * scene.texelMetres() : 0;
+            Status grown = Done{};
+            const double busy = cpuSeconds([&] { grown = scene.grow(growth); });
+            if (!grown) return bench.skip(row, grown.failure().text());
+            nodes[keeps] = stepsOf(growth.stats());
+            if (i >= 0) (keeps ? apart : free).push_back(busy);
+        }
+    scene.avoid = 0;
+    bench.add({row, "growth of stems that keep a distance, a second of CPU time", "nodes/s", nodes[1] / median(apart),
+               "that don't", nodes[0] / median(free)});
+    bench.add({row + "/time", "the same growth, CPU time", "ms", median(apart) * 1e3, "without a distance",
+               median(free) * 1e3});
+}
+
 }  // namespace
 
 void growthCases(Bench& bench) {
@@ -83,6 +103,7 @@ void growthCases(Bench& bench) {
         bench.add({row + "/gpu", "time of expansion", "ms", s.expandMs, "of it marching", s.marchMs});
         bench.add({row + "/memory", "bytes of a bark node, chunks too", "B",
                    double(s.nodeBytes + s.chunkBytes) / s.nodes, "bound", 64});
+        avoidRow(bench, *scene, **growth, row + "/avoid");
         if (s.leaves) bench.add({row + "/leaf", "bytes of a leaf", "B", double(s.leafBytes) / s.leaves, "bound", 32});
     }
     if (rate.count(64) && rate.count(4096))
