@@ -6,11 +6,16 @@
 #include <array>
 #include <bit>
 
-#include "tools/bake/import_ply_file.hpp"
 #include "tools/bake/import_polygons.hpp"
+#include "tools/formats/ply_file.hpp"
 
 namespace espalier::import {
 namespace {
+
+using formats::PlyElement;
+using formats::PlyFile;
+using formats::PlyNames;
+using formats::PlyType;
 
 // A vertex's properties that are read, by their place in a row: position, normal, UV, colour.
 constexpr size_t kNormal = 3, kUv = 6, kColour = 8, kAlpha = 11, kSlots = 12;
@@ -37,10 +42,15 @@ double shareOf(double value, PlyType type) {
 class PlyReader {
   public:
     PlyReader(const std::string& path, Bytes file, const ImportOptions& options, Intake& intake, Model& model)
-        : path_(path), options_(options), intake_(intake), file_(path, file), model_(model), blemishes_(path) {}
+        : path_(path),
+          options_(options),
+          intake_(intake),
+          file_({reinterpret_cast<const char*>(file.data()), file.size()}),
+          model_(model),
+          blemishes_(path) {}
 
     Status run() {
-        Status done = file_.readHeader();
+        Status done = told(file_.readHeader());
         if (!done) return done;
         readTextures();
         splits_ = std::ranges::any_of(file_.elements, [](const PlyElement& element) {
@@ -85,50 +95,27 @@ class PlyReader {
     }
 
     Status read(const PlyElement& element) {
-        // A number takes a byte at least, or a digit and a blank.
-        uint64_t smallest = element.properties.size() * (file_.isText() ? 2 : 1);
-        if (smallest == 0) return Done{};
-        if (element.count > (file_.bytesLeft() + 1) / smallest)
-            return file_.here("the file ends before the " + std::to_string(element.count) + " elements '" +
-                              element.name + "' that its header states");
+        if (element.properties.empty()) return Done{};
+        if (Status whole = told(file_.expect(element)); !whole) return whole;
         if (element.name == "vertex") return readVertices(element);
         if (element.name == "face") return readFaces(element);
         if (element.name == "tristrips") return readStrips(element);
         for (uint64_t i = 0; i < element.count; ++i)
-            if (!readRow(element, {}, nullptr)) return cut(element, i);
+            if (Status row = readRow(element, i, {}, nullptr); !row) return row;
         return Done{};
     }
 
-    Failure cut(const PlyElement& element, uint64_t i) {
-        return file_.here(element.name + " " + std::to_string(i) + ": the file ends or holds no number here");
+    // At the place that the file has reached: a line of a text, a byte of a binary.
+    Failure here(std::string message) const {
+        if (file_.line() > 0) return Failure(Diagnostic{path_, file_.line(), 0, {}, std::move(message)});
+        return Failure(path_, file_.here(message));
     }
-
-    // Reads all properties of an element. slots: where single numbers go in `values`, by property; -1: nowhere. Lists
-    // go into lists_. False: the file ends, or holds no number.
-    bool readRow(const PlyElement& element, std::span<const int> slots, double* values) {
-        lists_.resize(std::max(lists_.size(), element.properties.size()));
-        for (size_t k = 0; k < element.properties.size(); ++k) {
-            const PlyProperty& property = element.properties[k];
-            double value = 0;
-            if (property.list) {
-                if (!readList(property, lists_[k])) return false;
-            } else {
-                if (!file_.next(property.type, value)) return false;
-                if (k < slots.size() && slots[k] >= 0) values[slots[k]] = value;
-            }
-        }
-        return true;
+    Status told(std::string wrong) const {
+        if (wrong.empty()) return Done{};
+        return here(std::move(wrong));
     }
-
-    bool readList(const PlyProperty& property, std::vector<double>& list) {
-        list.clear();
-        double count = 0, value = 0;
-        if (!file_.next(property.count, count) || !(count >= 0) || count > double(file_.bytesLeft())) return false;
-        for (uint64_t i = 0; i < uint64_t(count); ++i) {
-            if (!file_.next(property.type, value)) return false;
-            list.push_back(value);
-        }
-        return true;
+    Status readRow(const PlyElement& element, uint64_t number, std::span<const int> slots, double* values) {
+        return told(file_.readRow(element, number, slots, values));
     }
 
     Status readVertices(const PlyElement& element) {
@@ -149,7 +136,7 @@ class PlyReader {
         for (uint64_t i = 0; i < element.count; ++i) {
             double v[kSlots] = {};
             v[kAlpha] = 1;
-            if (!readRow(element, slots, v)) return cut(element, i);
+            if (Status row = readRow(element, i, slots, v); !row) return row;
             positions_.push_back({v[0], v[1], v[2]});
             if (normals) model_.normals.push_back(direction({float(v[3]), float(v[4]), float(v[5])}));
             if (uvs) model_.uvs.push_back(uv(v[6], v[7]));
@@ -178,11 +165,11 @@ class PlyReader {
     Status takeVertex(const char* what, uint64_t number, double index, uint32_t& out) {
         const std::string place = what + (" " + std::to_string(number) + ": vertex ");
         if (!(index >= 0) || index >= double(positions_.size()) || index != std::floor(index))
-            return file_.here(place + std::to_string((long long)(std::abs(index) < 1e15 ? index : -1)) +
-                              " does not exist: the file has " + std::to_string(positions_.size()));
+            return here(place + std::to_string((long long)(std::abs(index) < 1e15 ? index : -1)) +
+                        " does not exist: the file has " + std::to_string(positions_.size()));
         out = uint32_t(index);
         if (!isPlace(positions_[out]))
-            return file_.here(place + std::to_string(out) + " has a position that is not a number of sane size");
+            return here(place + std::to_string(out) + " has a position that is not a number of sane size");
         return Done{};
     }
 
@@ -196,15 +183,15 @@ class PlyReader {
             if (const int at = element.find(kVertexNames[kColour + size_t(k)]); at >= 0)
                 slots[size_t(at)] = k, types[k] = element.properties[size_t(at)].type, ++colours;
         if (texture >= 0) slots[size_t(texture)] = 3;
-        if (corners < 0 || !element.properties[size_t(corners)].list) return file_.here("faces have no vertex_indices");
+        if (corners < 0 || !element.properties[size_t(corners)].list) return here("faces have no vertex_indices");
         const bool hasUvs = uvs >= 0 && element.properties[size_t(uvs)].list;
         for (uint64_t i = 0; i < element.count; ++i) {
             double values[4] = {};
-            if (!readRow(element, slots, values)) return cut(element, i);
+            if (Status row = readRow(element, i, slots, values); !row) return row;
             for (int k = 0; k < 3; ++k) values[k] = shareOf(values[k], types[k]);
             uint32_t colour = colours == 3 ? packed(values) : 0;
-            Status done = face("face", i, lists_[size_t(corners)], hasUvs ? &lists_[size_t(uvs)] : nullptr, colour,
-                               materialOf(values[3]));
+            Status done = face("face", i, file_.lists[size_t(corners)], hasUvs ? &file_.lists[size_t(uvs)] : nullptr,
+                               colour, materialOf(values[3]));
             if (!done) return done;
         }
         return Done{};
@@ -254,11 +241,10 @@ class PlyReader {
     // Each triangle of a strip shares two corners with the one before it, and turns the other way; -1 begins anew.
     Status readStrips(const PlyElement& element) {
         const int corners = element.find({"vertex_indices", "vertex_index"});
-        if (corners < 0 || !element.properties[size_t(corners)].list)
-            return file_.here("strips have no vertex_indices");
+        if (corners < 0 || !element.properties[size_t(corners)].list) return here("strips have no vertex_indices");
         for (uint64_t i = 0; i < element.count; ++i) {
-            if (!readRow(element, {}, nullptr)) return cut(element, i);
-            const std::vector<double>& strip = lists_[size_t(corners)];
+            if (Status row = readRow(element, i, {}, nullptr); !row) return row;
+            const std::vector<double>& strip = file_.lists[size_t(corners)];
             for (size_t k = 0, first = 0; k < strip.size(); ++k) {
                 if (strip[k] < 0 || strip[k] == kUnsignedRestart) first = k + 1;
                 if (k < first + 2) continue;
@@ -303,7 +289,6 @@ class PlyReader {
     Model& model_;
     Blemishes blemishes_;
     std::vector<glm::dvec3> positions_;  // of the file's vertices
-    std::vector<std::vector<double>> lists_;
     std::vector<uint32_t> polygon_;
     Polygons polygons_;
     bool splits_ = false;  // corners have values of their own

@@ -1,12 +1,12 @@
-// In: a PLY file (text, or binary of either byte order). Out: its header, then the numbers of its body.
-#include "tools/bake/import_ply_file.hpp"
+// In: a PLY file (text, or binary of either byte order). Out: its header, then the rows of its body.
+#include "tools/formats/ply_file.hpp"
 
 #include <algorithm>
 #include <cstring>
 
-#include "tools/bake/import_text.hpp"
+#include "tools/formats/text.hpp"
 
-namespace espalier::import {
+namespace espalier::formats {
 namespace {
 
 bool typeOf(std::string_view word, PlyType& out) {
@@ -63,29 +63,28 @@ int PlyElement::find(const PlyNames& names) const {
     return -1;
 }
 
-Status PlyFile::readHeader() {
+std::string PlyFile::readHeader() {
     bool hasFormat = false;
     for (;;) {
-        if (at_ >= text_.size()) return here("the header has no end_header");
+        if (at_ >= text_.size()) return "the header has no end_header";
         std::string_view rest = headerLine(), key = nextWord(rest);
         if (key == "end_header") break;
         hasFormat = hasFormat || key == "format";
-        Status done = statement(key, rest);
-        if (!done) return done;
+        if (std::string wrong = statement(key, rest); !wrong.empty()) return wrong;
     }
     // Where lines end with a carriage return alone, a line feed behind the last one is the body's first byte.
     const bool returnsAlone = text_.size() > 4 && text_[3] == '\r' && text_[4] != '\n';
     if (returnsAlone && text_.substr(0, at_).ends_with("\r\n")) --at_;
-    if (!hasFormat) return here("the header states no format");
+    if (!hasFormat) return "the header states no format";
     format_ = stated_;
     ++line_;
-    return Done{};
+    return {};
 }
 
 bool PlyFile::next(PlyType type, double& value) {
     if (format_ == Format::text) return nextText(value);
     size_t size = kSize[size_t(type)];
-    if (bytesLeft() < size) return false;
+    if (text_.size() - at_ < size) return false;
     uint8_t bytes[8];
     std::memcpy(bytes, text_.data() + at_, size);
     if (format_ == Format::bigEndian) std::reverse(bytes, bytes + size);
@@ -94,9 +93,39 @@ bool PlyFile::next(PlyType type, double& value) {
     return true;
 }
 
-Failure PlyFile::here(std::string message) const {
-    if (format_ == Format::text) return Failure(Diagnostic{path_, line_, 0, {}, std::move(message)});
-    return Failure(path_, "byte " + std::to_string(at_) + ": " + message);
+std::string PlyFile::here(const std::string& message) const {
+    return (line() > 0 ? std::to_string(line_) : "byte " + std::to_string(at_)) + ": " + message;
+}
+
+std::string PlyFile::expect(const PlyElement& element) const {
+    // A number takes a byte at least, or a digit and a blank.
+    const uint64_t smallest = element.properties.size() * (format_ == Format::text ? 2 : 1);
+    if (smallest == 0 || element.count <= (text_.size() - at_ + 1) / smallest) return {};
+    return "the file ends before the " + std::to_string(element.count) + " elements '" + element.name +
+           "' that its header states";
+}
+
+std::string PlyFile::readRow(const PlyElement& element, uint64_t number, std::span<const int> slots, double* values) {
+    lists.resize(std::max(lists.size(), element.properties.size()));
+    for (size_t k = 0; k < element.properties.size(); ++k) {
+        const PlyProperty& property = element.properties[k];
+        double value = 0;
+        if (!(property.list ? nextList(property, lists[k]) : next(property.type, value)))
+            return element.name + " " + std::to_string(number) + ": the file ends or holds no number here";
+        if (!property.list && k < slots.size() && slots[k] >= 0) values[slots[k]] = value;
+    }
+    return {};
+}
+
+bool PlyFile::nextList(const PlyProperty& property, std::vector<double>& list) {
+    list.clear();
+    double count = 0, value = 0;
+    if (!next(property.count, count) || !(count >= 0) || count > double(text_.size() - at_)) return false;
+    for (uint64_t i = 0; i < uint64_t(count); ++i) {
+        if (!next(property.type, value)) return false;
+        list.push_back(value);
+    }
+    return true;
 }
 
 std::string_view PlyFile::headerLine() {
@@ -121,19 +150,19 @@ bool PlyFile::nextText(double& value) {
     return good;
 }
 
-Status PlyFile::statement(std::string_view key, std::string_view rest) {
+std::string PlyFile::statement(std::string_view key, std::string_view rest) {
     if (key == "format") return format(rest);
     if (key == "element") return element(rest);
     if (key == "property") return property(rest);
     // A habit that no specification knows, but MeshLab and many others.
     if (key == "comment" && nextWord(rest) == "TextureFile" && !trimmed(rest).empty())
         textures.emplace_back(trimmed(rest));
-    return Done{};
+    return {};
 }
 
-Status PlyFile::format(std::string_view rest) {
+std::string PlyFile::format(std::string_view rest) {
     std::string_view name = nextWord(rest), version = nextWord(rest);
-    if (version != "1.0") return here("format version '" + std::string(version.substr(0, 20)) + "' instead of 1.0");
+    if (version != "1.0") return "format version '" + std::string(version.substr(0, 20)) + "' instead of 1.0";
     if (name == "ascii")
         stated_ = Format::text;
     else if (name == "binary_little_endian")
@@ -141,31 +170,31 @@ Status PlyFile::format(std::string_view rest) {
     else if (name == "binary_big_endian")
         stated_ = Format::bigEndian;
     else
-        return here("unknown format '" + std::string(name.substr(0, 40)) + "'");
-    return Done{};
+        return "unknown format '" + std::string(name.substr(0, 40)) + "'";
+    return {};
 }
 
-Status PlyFile::element(std::string_view rest) {
+std::string PlyFile::element(std::string_view rest) {
     PlyElement out;
     out.name = nextWord(rest);
     long long count = -1;
-    if (!toInteger(nextWord(rest), count) || count < 0) return here("element " + out.name + ": no count");
+    if (!toInteger(nextWord(rest), count) || count < 0) return "element " + out.name + ": no count";
     out.count = uint64_t(count);
     elements.push_back(std::move(out));
-    return Done{};
+    return {};
 }
 
-Status PlyFile::property(std::string_view rest) {
+std::string PlyFile::property(std::string_view rest) {
     PlyProperty out;
     std::string_view type = nextWord(rest);
     out.list = type == "list";
     if (out.list && (!typeOf(nextWord(rest), out.count) || out.count >= PlyType::float32))
-        return here("a list's count is no whole number");
-    if (!typeOf(out.list ? nextWord(rest) : type, out.type)) return here("a property of an unknown type");
+        return "a list's count is no whole number";
+    if (!typeOf(out.list ? nextWord(rest) : type, out.type)) return "a property of an unknown type";
     out.name = nextWord(rest);
-    if (elements.empty()) return here("a property before the first element");
+    if (elements.empty()) return "a property before the first element";
     elements.back().properties.push_back(std::move(out));
-    return Done{};
+    return {};
 }
 
-}  // namespace espalier::import
+}  // namespace espalier::formats
