@@ -28,6 +28,19 @@ typedef struct EspFieldElement {
                                     one of the field's */
     float radius;                /* metres within which the element is felt; 0: a tenth of the surface's radius */
 } EspFieldElement;
+/* Strokes of a brush, over all else that is said of a field; later ones over earlier ones. */
+typedef enum EspFieldBrush {
+    ESP_FIELD_COMB = 0,          /* drags directions along the stroke */
+    ESP_FIELD_SMOOTH = 1         /* lets directions relax, as far as half the radius in one stroke */
+} EspFieldBrush;
+typedef struct EspFieldStroke {
+    EspFieldBrush brush;
+    float radius;                /* metres in the surface's space; 0: a tenth of the surface's radius */
+    float strength;              /* 0 to 1; of a comb, the share of the way there that one stroke turns its middle */
+    uint32_t pointCount;         /* up to 1,048,576, all strokes of a field together. One point alone combs nothing */
+    const float* points;         /* x, y, z each, in the surface's space, on the surface along the way; at most half a
+                                    radius from one to the next, or the stroke has gaps */
+} EspFieldStroke;
 typedef struct EspFieldDef {
     ESP_STRUCT_SIZE(EspFieldDef);
     uint32_t elementCount;       /* up to 4,096 */
@@ -39,13 +52,26 @@ typedef struct EspFieldDef {
                                     characteristic. What elements leave over lies far from them. The drift then turns
                                     each piece's field as a whole only */
     uint32_t reserved;           /* 0 */
+    /* A field that another program has computed, in the surface's space, as its file has it: it goes with the surface
+     * where that goes. It holds where it says something, but not within an element's radius; an exact field only turns to it
+     * as to the drift. Either vectors or tensors at points, or a picture; all NULL: none. */
+    const float* points;         /* metres, x, y, z each. A vertex takes the point at its place, or a mean of the nearest
+                                    within a hundredth of the surface's radius; without one it follows its neighbours */
+    const float* vectors;        /* x, y, z for each point; their length is the field's value */
+    const float* tensors;        /* symmetric: xx, yy, zz, xy, xz, yz for each point; of fields whose N is even */
+    uint32_t pointCount;         /* up to 16,777,216 */
+    uint32_t strokeCount;        /* up to 65,536 */
+    const EspFieldStroke* strokes;
+    const float* picture;        /* vectors over the walk's UVs: x, y, z for each texel, rows from v = 0; 0, 0, 0 says nothing */
+    uint32_t pictureWidth, pictureHeight; /* up to 16,384 */
 } EspFieldDef;
-ESP_API EspResult espDefaultFieldDef(EspFieldDef* out);   /* no elements; it leans down by 1 */
+ESP_API EspResult espDefaultFieldDef(EspFieldDef* out);   /* nothing of all this; it leans down by 1 */
 
 /* The field of this name on one surface, which grammars of patterns read that declare a field so; a field of curvature is the
  * surface's own. def: copied; NULL: as espDefaultFieldDef says, which holds for every surface to begin with. Takes effect with
- * the next espUpdate. ESP_INVALID_ARGUMENT: there is no such surface, the name is empty, a number isn't finite, or there are
- * too many elements. Elements of half a turn do nothing where a grammar declares a field of vectors. */
+ * the next espUpdate. ESP_INVALID_ARGUMENT: there is no such surface, the name is empty, a number isn't finite, or there is
+ * too much of something. Elements of half a turn do nothing where a grammar declares a field of vectors. Tensors for a field
+ * of odd N, and points of which none lies near the surface, fail in espUpdate with ESP_INVALID_CONTENT. */
 ESP_API EspResult espSetField(EspContext* context, EspSurface surface, const char* name, const EspFieldDef* def);
 
 /* A place about which a field turns. */

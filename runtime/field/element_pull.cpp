@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "runtime/field/polar_map.hpp"
-
 namespace espalier {
 namespace {
 
@@ -16,8 +14,30 @@ constexpr double kElementPull = 40;  // of an element at its centre, against smo
 constexpr double kDriftPull = 0.6;   // likewise, over the surface's radius
 constexpr double kFelt = 2.5;        // radii beyond which an element isn't felt
 
-// The angle that parallel transport from the centre adds along the shortest way to each vertex: it is handed on from
-// the neighbour that the way passes nearest to.
+bool sameReach(const FieldElement& a, const FieldElement& b) {
+    return a.kind == b.kind && a.position == b.position && a.radius == b.radius;
+}
+
+FeltElement feltElement(const FieldMesh& mesh, uint32_t symmetry, const FieldElement& element) {
+    FeltElement felt{element, nearestVertex(mesh, element.position), {}, 0, {}, {}};
+    const double radius = element.radius > 0 ? element.radius : mesh.radius / 10;
+    const PolarMap map = polarMap(mesh, felt.centre, kFelt * radius);
+    const std::vector<double> carried = carriedAngles(mesh, map);
+    const double index = indexOf(element.kind);
+    felt.vertices = map.reached;
+    for (uint32_t v : map.reached) {
+        const double d = map.distance[v] / radius;
+        felt.within += d <= 1;
+        const double share = std::exp(-d * d) * (index != 0 ? std::min(d * 4, 1.0) : 1);
+        felt.weights.push_back(kElementPull * share * mesh.areas[v] / (radius * radius));
+        felt.wishes.push_back(std::polar(1.0, symmetry * (index * map.angle[v] + carried[v])));
+    }
+    return felt;
+}
+
+}  // namespace
+
+// It is handed on from the neighbour that the way passes nearest to.
 std::vector<double> carriedAngles(const FieldMesh& mesh, const PolarMap& map) {
     std::vector<double> carried(mesh.positions.size(), 0);
     for (uint32_t v : map.reached) {
@@ -37,28 +57,6 @@ std::vector<double> carriedAngles(const FieldMesh& mesh, const PolarMap& map) {
     }
     return carried;
 }
-
-bool sameReach(const FieldElement& a, const FieldElement& b) {
-    return a.kind == b.kind && a.position == b.position && a.radius == b.radius;
-}
-
-FeltElement feltElement(const FieldMesh& mesh, uint32_t symmetry, const FieldElement& element) {
-    FeltElement felt{element, nearestVertex(mesh, element.position), {}, {}, {}};
-    const double radius = element.radius > 0 ? element.radius : mesh.radius / 10;
-    const PolarMap map = polarMap(mesh, felt.centre, kFelt * radius);
-    const std::vector<double> carried = carriedAngles(mesh, map);
-    const double index = indexOf(element.kind);
-    felt.vertices = map.reached;
-    for (uint32_t v : map.reached) {
-        const double d = map.distance[v] / radius;
-        const double share = std::exp(-d * d) * (index != 0 ? std::min(d * 4, 1.0) : 1);
-        felt.weights.push_back(kElementPull * share * mesh.areas[v] / (radius * radius));
-        felt.wishes.push_back(std::polar(1.0, symmetry * (index * map.angle[v] + carried[v])));
-    }
-    return felt;
-}
-
-}  // namespace
 
 uint32_t nearestVertex(const FieldMesh& mesh, const glm::dvec3& place) {
     const auto distance = [&](const glm::dvec3& p) { return glm::dot(p - place, p - place); };

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "runtime/field/field.hpp"
+#include "runtime/field/polar_map.hpp"
 
 namespace espalier {
 
@@ -18,8 +19,9 @@ struct Pull {
 // Where an element is felt and what it asks for there, but for its direction.
 struct FeltElement {
     FieldElement element;
-    uint32_t centre = 0;  // the nearest vertex
-    std::vector<uint32_t> vertices;
+    uint32_t centre = 0;             // the nearest vertex
+    std::vector<uint32_t> vertices;  // the nearest first,
+    size_t within = 0;               // so many of them within its radius
     std::vector<double> weights;
     std::vector<std::complex<double>> wishes;
 };
@@ -40,6 +42,9 @@ class FeltElements {
 };
 
 uint32_t nearestVertex(const FieldMesh& mesh, const glm::dvec3& place);
+
+// [vertex]: the angle that parallel transport from the map's centre adds along the shortest way there.
+std::vector<double> carriedAngles(const FieldMesh& mesh, const PolarMap& map);
 
 AskedElement askedElement(const FieldMesh& mesh, uint32_t symmetry, const FeltElement& felt,
                           const FieldElement& element);

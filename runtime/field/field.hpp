@@ -3,11 +3,13 @@
 // Tangent fields at the vertices of a mesh: designed from elements, or the surface's own curvature.
 
 #include <complex>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "runtime/core/result.hpp"
 #include "runtime/field/field_mesh.hpp"
+#include "runtime/field/field_samples.hpp"
 
 namespace espalier {
 
@@ -25,6 +27,8 @@ struct Field {
     // Of an exact field: the turns that topology asked for beyond those of the elements, in N-ths of a whole turn, all
     // closed pieces together; those missing and those too much count alike.
     int unasked = 0;
+    // Of a field with samples: vertices that have none near by. Their directions follow their neighbours'.
+    size_t unsampled = 0;
 };
 
 // What a designer puts on a surface (Li 2011 §4.2, Fig. 6).
@@ -35,6 +39,17 @@ struct FieldElement {
     glm::dvec3 direction{1, 0, 0};  // a regular element's, laid into the surface; a singular one is turned so that this
                                     // direction is one of the field's
     double radius = 0;              // metres, how far it is felt; 0: a tenth of the surface's radius
+    bool operator==(const FieldElement&) const = default;
+};
+
+// A stroke of a brush over what all else asks for. A comb drags directions along its way; a smoothing brush lets them
+// relax, as far as half its radius in one stroke.
+enum class FieldBrush : uint32_t { comb, smooth };
+struct FieldStroke {
+    FieldBrush brush = FieldBrush::comb;
+    std::vector<glm::vec3> points;  // object space, metres, on the surface; at most half a radius from one to the next
+    double radius = 0;              // metres; 0: a tenth of the surface's radius
+    double strength = .5;           // 0 to 1: of a comb, the share of the way there that one stroke turns its middle
 };
 
 // The turns that a field makes about an element, in whole turns: 1/2 for a wedge, -1 for a saddle.
@@ -48,10 +63,14 @@ struct FieldDesign {
     glm::dvec3 drift{0, -1, 0};  // object space: where no element says otherwise the field leans to this direction
     double lean = 1;             // how much; 0: not at all
     bool exact = false;          // the elements' singularities and no others, but for those that topology asks for
+    // The field that others have computed: it holds wherever it says something, but not within an element's radius.
+    // Where the field is exact it turns each piece only as a whole, as the drift does. Null: there is none.
+    std::shared_ptr<const FieldSamples> samples = {};
+    std::vector<FieldStroke> strokes = {};  // later ones over earlier ones; also of an exact field
 };
 
 // The smoothest field that does what the design asks for: sparse solves over the whole mesh. Fails for an element
-// that the symmetry doesn't allow, and where the mesh has no triangles.
+// that the symmetry doesn't allow, for samples as sampleVertices says, and where the mesh has no triangles.
 Result<Field> designField(const FieldMesh& mesh, const FieldDesign& design);
 
 // The tensor of curvature (Rusinkiewicz 2004, "Estimating curvatures and their derivatives on triangle meshes"):

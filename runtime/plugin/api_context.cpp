@@ -35,7 +35,7 @@ EspResult create(EspContextDef def, EspContext** out) {
     const EspHostDevice host = takenOr("espCreate: host", def.host, EspHostDevice{});
     if (def.host) def.host = &host;
     if (def.host)
-        if (const char* mistake = mistakeIn(host)) throw Refusal{std::string("espCreate: ") + mistake};
+        if (const char* mistake = espalier::mistakeIn(host)) throw Refusal{std::string("espCreate: ") + mistake};
     auto context = std::make_unique<EspContext>();
     context->log = logInto(def.log, def.logUser);
     setDefaults(context->grow);

@@ -65,7 +65,7 @@ bool plantsRead(const EspContext& context, const std::string& name) {
 }
 
 EspResult begin(EspContext& context, const EspBrush& brush, EspStroke* out) {
-    if (const char* mistake = mistakeIn(brush))
+    if (const char* mistake = espalier::mistakeIn(brush))
         return fail(&context, ESP_INVALID_ARGUMENT, std::string("espBeginStroke: ") + mistake);
     if (EspResult bad = makePainter(context)) return bad;
     PaintStroke stroke;

@@ -33,12 +33,37 @@ FieldDesign designOf(const AskedField& asked, const PlacedSurface& surface, uint
     design.drift = turnedBy(surface.toObject, asked.drift);
     design.lean = double(asked.lean);
     design.exact = asked.exact;
+    design.strokes = asked.strokes;
     for (const EspFieldElement& e : asked.elements) {
         const FieldElement element{ElementKind(e.kind), glm::dvec3(surface.toObject * glm::vec4(vec(e.position), 1)),
                                    turnedBy(surface.toObject, e.direction), double(e.radius / surface.scale)};
         if (fits(element.kind, symmetry)) design.elements.push_back(element);
     }
     return design;
+}
+
+// Of a picture they are read once.
+std::shared_ptr<const FieldSamples> samplesFor(const AskedField& asked, const FieldGround& ground, MadeField& made) {
+    if (!asked.picture) return asked.samples;
+    if (made.picture == asked.picture) return made.samples;
+    made.picture = asked.picture;
+    return std::make_shared<FieldSamples>(samplesOf(*ground.surface, ground.mesh, *asked.picture));
+}
+
+Result<Field> designed(EspContext& context, const FieldGround& ground, const AskedField& asked,
+                       const PlacedSurface& surface, const FieldInfo& info, MadeField& made) {
+    FieldDesign design = designOf(asked, surface, info.symmetry);
+    design.samples = samplesFor(asked, ground, made);
+    const bool other = made.samples != design.samples;
+    made.samples = design.samples;
+    if (!made.solver) made.solver = std::make_unique<FieldSolver>(ground.mesh);
+    Result<Field> field = made.solver->design(design);
+    if (!field) return Failure("field '" + info.name + "'", field.failure().diagnostics.front().message);
+    if (other && field->unsampled > 0)
+        context.log(Severity::warning, "field '" + info.name + "': " + std::to_string(field->unsampled) + " of " +
+                                           std::to_string(ground.mesh.positions.size()) +
+                                           " vertices have nothing of what was given near by, and follow the others");
+    return field;
 }
 
 // Of the field that shows under this name, on one surface.
@@ -81,9 +106,8 @@ Result<MadeField*> fieldOn(EspContext& context, uint32_t id, const FieldInfo& in
     const bool same = made.texels && made.symmetry == info.symmetry &&
                       (info.curvature || (made.asked == wish.number && made.toObject == surface.toObject));
     if (!same) {
-        if (!made.solver) made.solver = std::make_unique<FieldSolver>(ground.mesh);
         Result<Field> field = info.curvature ? Result<Field>(curvatureField(ground.mesh))
-                                             : made.solver->design(designOf(wish, surface, info.symmetry));
+                                             : designed(context, ground, wish, surface, info, made);
         if (!field) return field.failure();
         Result<Buffer> texels = makeBuffer(*context.device, "field texels", ground.sampling->texels(*field));
         if (!texels) return texels.failure();

@@ -60,7 +60,7 @@ EspResult makeLook(EspContext& context, const std::string& call, const EspLook& 
     look.layerOpacity = from.viewOpacity;
     look.level = from.viewLevel;
     if (from.view == ESP_VIEW_LAYER && from.viewBrush) {
-        if (const char* mistake = mistakeIn(*from.viewBrush))
+        if (const char* mistake = espalier::mistakeIn(*from.viewBrush))
             return fail(&context, ESP_INVALID_ARGUMENT, call + ": viewBrush: " + mistake);
         look.limits = limitsOf(*from.viewBrush);
     }

@@ -20,21 +20,26 @@
 
 namespace espalier {
 
-// What a host has said of one field of one surface; in the world.
+// What a host has said of one field of one surface; elements and drift in the world, the rest in the surface's space.
 struct AskedField {
     std::vector<EspFieldElement> elements;
     std::vector<Remainder> remainders;  // of their positions, where the origin has moved
     float drift[3] = {0, -1, 0};
     float lean = 1;
     bool exact = false;
-    Version number = 0;  // unlike any other that was asked for; 0: the default
+    std::vector<FieldStroke> strokes;
+    std::shared_ptr<const FieldSamples> samples;   // null: none
+    std::shared_ptr<const VectorPicture> picture;  // likewise
+    Version number = 0;                            // unlike any other that was asked for; 0: the default
 };
 
 // A field as kernels read it.
 struct MadeField {
     Version asked = 0;  // AskedField::number
     uint32_t symmetry = 0;
-    glm::mat4 toObject{1};  // by which elements and drift were taken into object space
+    glm::mat4 toObject{1};                         // by which elements and drift were taken into object space
+    std::shared_ptr<const VectorPicture> picture;  // that the samples are of, if they are of one
+    std::shared_ptr<const FieldSamples> samples;   // of the field
     std::unique_ptr<FieldSolver> solver;
     Field field;
     Buffer texels;

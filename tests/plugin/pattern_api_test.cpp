@@ -130,6 +130,108 @@ TEST_CASE("what can't be a field or a pattern is refused, and what stands stays"
     CHECK(pattern.stats().hash == before);
 }
 
+TEST_CASE("strokes and a field of others turn the pattern, and what was undone is as before") {
+    Pattern pattern;
+    const uint64_t before = pattern.stats().hash;
+    const auto hashWith = [&](const EspFieldDef& def) {
+        REQUIRE_MESSAGE(espSetField(pattern.context, pattern.surface, "flow", &def) == ESP_OK,
+                        espLastError(pattern.context));
+        REQUIRE_MESSAGE(pattern.update(), espLastError(pattern.context));
+        return pattern.stats().hash;
+    };
+    EspFieldDef def = esp::defaults<EspFieldDef>();
+    const float way[] = {.1f, .5f, 0, .3f, .6f, 0, .5f, .7f, 0, .7f, .8f, 0};
+    const EspFieldStroke strokes[] = {{ESP_FIELD_COMB, .5f, .9f, 4, way}, {ESP_FIELD_SMOOTH, .4f, .5f, 2, way}};
+    def.strokes = strokes;
+    def.strokeCount = 1;
+    const uint64_t combed = hashWith(def);
+    CHECK(combed != before);
+    def.strokeCount = 2;
+    (void)hashWith(def);
+    def.strokeCount = 1;
+    CHECK(hashWith(def) == combed);
+    def = esp::defaults<EspFieldDef>();
+    // The same direction at the corners, as vectors, as tensors and as a picture of it.
+    const float corners[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    std::vector<float> vectors, tensors, picture;
+    for (int i = 0; i < 4; ++i) vectors.insert(vectors.end(), {.6f, .8f, 0});
+    for (int i = 0; i < 4; ++i) tensors.insert(tensors.end(), {.36f, .64f, 0, .48f, 0, 0});
+    for (int i = 0; i < 6; ++i) picture.insert(picture.end(), {.6f, .8f, 0});
+    def.points = corners;
+    def.pointCount = 4;
+    def.vectors = vectors.data();
+    const uint64_t given = hashWith(def);
+    CHECK(given != before);
+    def.vectors = nullptr;
+    def.tensors = tensors.data();
+    CHECK(hashWith(def) == given);
+    def = esp::defaults<EspFieldDef>();
+    def.picture = picture.data();
+    def.pictureWidth = 3;
+    def.pictureHeight = 2;
+    CHECK(hashWith(def) == given);
+    CHECK(hashWith(esp::defaults<EspFieldDef>()) == before);
+}
+
+TEST_CASE("strokes and fields of others that can't be are refused, each with its reason") {
+    Pattern pattern;
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float good[] = {0, 0, 0, 1, 0, 0}, bad[] = {0, nan, 0, 1, 0, 0}, far[] = {90, 0, 0, 91, 0, 0};
+    const auto refused = [&](const EspFieldDef& def, const std::string& why) {
+        const EspResult set = espSetField(pattern.context, pattern.surface, "flow", &def);
+        CAPTURE(espLastError(pattern.context));
+        CHECK(set == ESP_INVALID_ARGUMENT);
+        CHECK(std::string(espLastError(pattern.context)).find(why) != std::string::npos);
+    };
+    EspFieldStroke stroke{ESP_FIELD_COMB, .1f, .5f, 2, good};
+    EspFieldDef def = esp::defaults<EspFieldDef>();
+    def.strokeCount = 1;
+    refused(def, "null pointer");
+    def.strokes = &stroke;
+    for (const EspFieldStroke& wrong :
+         {EspFieldStroke{EspFieldBrush(7), .1f, .5f, 2, good}, EspFieldStroke{ESP_FIELD_COMB, -1, .5f, 2, good},
+          EspFieldStroke{ESP_FIELD_COMB, .1f, 1.5f, 2, good}, EspFieldStroke{ESP_FIELD_COMB, .1f, .5f, 2, nullptr},
+          EspFieldStroke{ESP_FIELD_COMB, .1f, nan, 2, good}, EspFieldStroke{ESP_FIELD_COMB, .1f, .5f, 2, bad}}) {
+        stroke = wrong;
+        refused(def, "stroke 0 is out of range");
+    }
+    stroke = {ESP_FIELD_COMB, .1f, .5f, 2000000, good};
+    refused(def, "more than 1048576 points");
+
+    def = esp::defaults<EspFieldDef>();
+    def.pointCount = 2;
+    refused(def, "points need a count");
+    def.points = good;
+    refused(def, "either vectors or tensors");
+    def.vectors = bad;
+    refused(def, "isn't finite");
+    def.tensors = good;
+    refused(def, "either vectors or tensors");
+    def.tensors = nullptr;
+    def.vectors = good;
+    def.pointCount = 20000000;
+    refused(def, "more than 16777216 points");
+    def.pointCount = 2;
+    def.picture = good;
+    refused(def, "a picture needs a size");
+    def = esp::defaults<EspFieldDef>();
+    def.picture = good;
+    def.pictureWidth = 20000;
+    def.pictureHeight = 1;
+    refused(def, "more than 16384 texels");
+
+    // Where they lie is known when the surface is asked.
+    def = esp::defaults<EspFieldDef>();
+    def.points = far;
+    def.vectors = good;
+    def.pointCount = 2;
+    const uint64_t before = pattern.stats().hash;
+    REQUIRE(espSetField(pattern.context, pattern.surface, "flow", &def) == ESP_OK);
+    CHECK_FALSE(pattern.update());
+    CHECK(std::string(espLastError(pattern.context)).find("field 'flow': none of its 2 points") != std::string::npos);
+    CHECK(pattern.stats().hash == before);
+}
+
 TEST_CASE("an exact field that a surface has too few vertices for is refused, and says so") {
     Pattern pattern;
     const EspFieldElement element{ESP_ELEMENT_WEDGE, {.3f, .3f, 0}, {1, 0, 0}, .2f};
