@@ -237,6 +237,9 @@ void Controls::takeToolKey(const KeyEvent& event) {
     if (work_.tool == Tool::branch && key == GLFW_KEY_LEFT_BRACKET) work_.pickParent();
     if (work_.tool == Tool::houses && removes) houses_.removeCorner(work_);
     if (work_.tool == Tool::fields && removes) fields_.remove(work_);
+    if (work_.tool == Tool::fields && (key == GLFW_KEY_LEFT_BRACKET || key == GLFW_KEY_RIGHT_BRACKET))
+        work_.field.radius = std::clamp(fieldReach(work_) * (key == GLFW_KEY_LEFT_BRACKET ? 1 / 1.15f : 1.15f),
+                                        kSmallestBrush, kLargestBrush);
     if (work_.tool == Tool::path && removes) path_.removePoint(work_);
     if (work_.tool == Tool::seeds) {
         if (removes) seeds_.remove(work_);
@@ -344,6 +347,7 @@ void Controls::hover() {
     work_.hit.reset();
     const bool seen = work_.editing && inScene(mouse.x, mouse.y);
     if (seen && work_.tool == Tool::paint) work_.hit = work_.aim({mouse.x, mouse.y});
+    if (seen && work_.tool == Tool::fields && brushesField(work_)) work_.hit = work_.pick({mouse.x, mouse.y});
     const bool points = seen && work_.tool == Tool::branch && !navigation_.dragging();
     work_.pointAtBranch(points ? std::optional(glm::vec2(mouse.x, mouse.y)) : std::nullopt);
 }

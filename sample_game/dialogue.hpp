@@ -70,6 +70,7 @@ void askElsewhere(Workspace& work, const Session& session);
 void projectDialogues(Workspace& work, Session& session);  // save, open, leave, recover
 void layerDialogues(Workspace& work, Session& session);    // pictures of layers, out and in
 void lookDialogues(Workspace& work, Session& session);     // a leaf's model, its picture
+void fieldDialogue(Workspace& work, Session& session);     // a field of another program
 void exportDialogue(Workspace& work, Session& session);    // what grows, as glTF
 void runDialogues(Workspace& work, Session& session);      // record, replay
 

@@ -24,19 +24,6 @@ float arrowOf(const Workspace& work) {
     return kElementArrow * work.reach();
 }
 
-// How far the next element is felt.
-float reachOf(const Workspace& work) {
-    return work.field.radius > 0 ? work.field.radius : .1f * work.reach();
-}
-
-// Which of the scene's surfaces a hit is on; nothing: none.
-std::optional<size_t> surfaceOf(const Workspace& work, const EspHit& hit) {
-    const auto& surfaces = work.scene().surfaces;
-    for (size_t i = 0; i < surfaces.size(); ++i)
-        if (surfaces[i].id.id == hit.surface.id) return i;
-    return std::nullopt;
-}
-
 glm::vec3 tipOf(const Workspace& work, const SceneElement& e) {
     const glm::vec3 direction = vec(e.direction);
     const float length = glm::length(direction);
@@ -87,7 +74,7 @@ void changeElement(Workspace& work, uint32_t gesture, const std::function<void(S
 }
 
 void FieldTool::place(Workspace& work, const EspHit& hit) {
-    const auto surface = surfaceOf(work, hit);
+    const auto surface = surfaceUnder(work, hit);
     if (!surface) return;
     SceneField field = fieldNow(work, *surface);
     SceneElement element;
@@ -105,9 +92,9 @@ void FieldTool::place(Workspace& work, const EspHit& hit) {
 
 // One element a step of the stroke, all of them one undo step.
 void FieldTool::layStroke(Workspace& work, const EspHit& hit) {
-    if (surfaceOf(work, hit) != work.field.surface) return;
+    if (surfaceUnder(work, hit) != work.field.surface) return;
     const glm::vec3 point = vec(hit.position), way = point - laid_;
-    const float step = kStrokeStep * reachOf(work);
+    const float step = kStrokeStep * fieldReach(work);
     if (glm::length(way) < step) return;
     SceneField field = fieldNow(work, work.field.surface);
     SceneElement element;
@@ -127,6 +114,11 @@ void FieldTool::press(Workspace& work, glm::vec2 at) {
     from_ = at;
     moved_ = changed_ = false;
     gesture_ = work.newGesture();
+    if (brushesField(work)) {
+        if (!brush_.begin(work, at, gesture_)) return work.say("No surface there");
+        drag_ = Drag::brush;
+        return;
+    }
     if (const SceneElement* chosen = chosenElement(work)) {
         const auto tip = work.place(tipOf(work, *chosen));
         if (tip && glm::distance(*tip, at) < kElementReach * work.scale) {
@@ -147,7 +139,7 @@ void FieldTool::press(Workspace& work, glm::vec2 at) {
     const auto hit = work.pick(at);
     if (!hit) return work.say("No surface there");
     if (work.field.kind != kStroke) return place(work, *hit);
-    const auto surface = surfaceOf(work, *hit);
+    const auto surface = surfaceUnder(work, *hit);
     if (!surface) return;
     work.field.surface = *surface;
     work.field.element.reset();
@@ -156,6 +148,11 @@ void FieldTool::press(Workspace& work, glm::vec2 at) {
 }
 
 void FieldTool::follow(Workspace& work, glm::vec2 at) {
+    if (drag_ == Drag::brush) {
+        brush_.follow(work, at);
+        changed_ = brush_.changed();
+        return;
+    }
     moved_ = moved_ || glm::distance(at, from_) > 4 * work.scale;
     const auto hit = moved_ ? work.pick(at) : std::nullopt;
     if (!hit) return;
@@ -181,13 +178,16 @@ bool FieldTool::take(Workspace& work, const PointerEvent& event) {
     if (drag_ == Drag::none) return false;
     if (event.kind == Kind::move) follow(work, {event.x, event.y});
     if (event.kind == Kind::release && left) {
-        if (drag_ == Drag::stroke && !changed_) work.say("Drag over the model: the field follows");
+        if (drag_ == Drag::brush) changed_ = brush_.changed();
+        if ((drag_ == Drag::stroke || drag_ == Drag::brush) && !changed_)
+            work.say("Drag over the model: the field follows");
         drag_ = Drag::none;
     }
     return true;
 }
 
 void FieldTool::cancel(Workspace& work) {
+    if (drag_ == Drag::brush) changed_ = brush_.changed();
     if (drag_ != Drag::none && changed_) work.takeBack(gesture_);
     drag_ = Drag::none;
 }
@@ -201,6 +201,7 @@ void FieldTool::remove(Workspace& work) {
 }
 
 void FieldTool::draw(const Workspace& work) const {
+    if (brushesField(work)) brush_.draw(work);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float s = work.scale;
     const SceneElement* chosen = chosenElement(work);

@@ -1,12 +1,14 @@
 #pragma once
 
+#include "sample_game/field_brush.hpp"
 #include "sample_game/input.hpp"
 #include "sample_game/workspace.hpp"
 
 namespace sample {
 
 // Elements of the field in hand: a click places one, a drag gives its direction. A click on one chooses it, a drag of
-// it moves it, a drag of its arrow turns it. Where a stroke is asked for, a drag lays elements along its way.
+// it moves it, a drag of its arrow turns it. Where a stroke is asked for, a drag lays elements along its way; with a
+// brush it combs or smooths.
 class FieldTool {
   public:
     bool take(Workspace& work, const PointerEvent& event);
@@ -17,12 +19,13 @@ class FieldTool {
     void draw(const Workspace& work) const;
 
   private:
-    enum class Drag { none, direction, move, stroke };
+    enum class Drag { none, direction, move, stroke, brush };
     void press(Workspace& work, glm::vec2 at);
     void follow(Workspace& work, glm::vec2 at);
     void place(Workspace& work, const EspHit& hit);
     void layStroke(Workspace& work, const EspHit& hit);
 
+    FieldBrush brush_;
     Drag drag_ = Drag::none;
     glm::vec2 from_{0};
     glm::vec3 laid_{0};  // where the stroke's last element ends

@@ -63,6 +63,7 @@ void showDialogues(Workspace& work, Session& session) {
     runDialogues(work, session);
     layerDialogues(work, session);
     lookDialogues(work, session);
+    fieldDialogue(work, session);
     askElsewhere(work, session);
 }
 

@@ -1,9 +1,12 @@
-// The field in hand: its elements, and what it leans to.
+// The field in hand: its elements, its file, strokes over it, and what it leans to.
 #include <imgui.h>
 
 #include <algorithm>
+#include <filesystem>
 
+#include "sample_game/dialogue.hpp"
 #include "sample_game/field_tool.hpp"
+#include "sample_game/folder_list.hpp"
 #include "sample_game/panels.hpp"
 
 namespace sample {
@@ -13,29 +16,38 @@ using namespace espalier::document;
 using espalier::scene::SceneElement;
 using espalier::scene::SceneField;
 
-struct Kind {
+struct FieldKind {
     const char *name, *label, *tip;
 };
-constexpr Kind kKinds[] = {{kStroke, "Flow stroke", "A drag over the model lays directions along its way"},
-                           {"regular", "Direction", "The field has this direction here"},
-                           {"wedge", "Wedge", "The field turns about the place by half a turn"},
-                           {"trisector", "Trisector", "By half a turn against the way around"},
-                           {"node", "Node", "Directions lead away from the place"},
-                           {"centre", "Centre", "Directions lead around the place"},
-                           {"saddle", "Saddle", "The field turns by a whole turn against the way around"}};
+constexpr const char* kAskField = "Load a field";
+
+constexpr FieldKind kFieldKinds[] = {
+    {kComb, "Comb", "A drag over the model turns the directions under the brush along its way"},
+    {kSmooth, "Smooth", "Directions under the brush relax"},
+    {kStroke, "Flow stroke", "A drag over the model lays directions along its way"},
+    {"regular", "Direction", "The field has this direction here"},
+    {"wedge", "Wedge", "The field turns about the place by half a turn"},
+    {"trisector", "Trisector", "By half a turn against the way around"},
+    {"node", "Node", "Directions lead away from the place"},
+    {"centre", "Centre", "Directions lead around the place"},
+    {"saddle", "Saddle", "The field turns by a whole turn against the way around"}};
 
 const char* labelOf(const std::string& kind) {
-    for (const Kind& k : kKinds)
+    for (const FieldKind& k : kFieldKinds)
         if (kind == k.name) return k.label;
     return "";
 }
 
-// True: another kind was taken. strokes: they are offered, too.
-bool chooseKind(const char* id, std::string& kind, bool strokes) {
+bool drags(std::string_view kind) {
+    return kind == kStroke || kind == kComb || kind == kSmooth;
+}
+
+// True: another kind was taken. all: not only elements.
+bool chooseKind(const char* id, std::string& kind, bool all) {
     bool changed = false;
     if (!beginCombo(id, labelOf(kind))) return false;
-    for (const Kind& k : kKinds) {
-        if (!strokes && k.name == std::string_view(kStroke)) continue;
+    for (const FieldKind& k : kFieldKinds) {
+        if (!all && drags(k.name)) continue;
         if (ImGui::Selectable(k.label, kind == k.name)) {
             kind = k.name;
             changed = true;
@@ -59,15 +71,71 @@ void elementRows(Workspace& work) {
     }
 }
 
+// As one step, of all surfaces whose field isn't as `change` leaves it.
+template <class F>
+bool changeAll(Workspace& work, uint32_t gesture, F&& change) {
+    bool good = true;
+    for (size_t s = 0; s < work.scene().surfaces.size(); ++s) {
+        const SceneField before = fieldNow(work, s);
+        SceneField field = before;
+        change(field);
+        if (field != before) good = work.perform(SetField{uint32_t(s), std::move(field)}, gesture) && good;
+    }
+    return good;
+}
+
+void brushRows(Workspace& work) {
+    float radius = fieldReach(work);
+    if (labelledSlider("Radius", &radius, kSmallestBrush, std::max(work.reach(), 2 * kSmallestBrush), "%.2f m", true))
+        work.field.radius = radius;
+    toolTip("How far the brush reaches; [ and ] change it");
+    labelledSlider("Strength", &work.field.strength, 0, 1, "%.2f");
+    toolTip("How much of the way there one stroke goes");
+}
+
+// The surface in hand's.
+void fileRow(Workspace& work) {
+    if (work.field.surface >= work.scene().surfaces.size()) return;
+    const SceneField field = fieldNow(work, work.field.surface);
+    const float cross = field.file.empty() ? 0 : ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.x;
+    const float width = ImGui::GetContentRegionAvail().x - cross;
+    const std::string text =
+        field.file.empty() ? "Load from file \u2026" : std::filesystem::path(field.file).filename().string();
+    if (ImGui::Button((shortened(text, width - 2 * ImGui::GetStyle().FramePadding.x) + "###file").c_str(), {width, 0}))
+        ask(kAskField);
+    toolTip((field.file + (field.file.empty() ? "" : "\n") +
+             "A field that another program has computed: PLY with vectors or tensors at vertices, or OpenEXR over the "
+             "walk's UVs")
+                .c_str());
+    if (field.file.empty()) return;
+    ImGui::SameLine();
+    if (ImGui::Button("\u00d7", {ImGui::GetFrameHeight(), 0})) {
+        SceneField without = field;
+        without.file.clear();
+        without.given.reset();
+        work.perform(SetField{uint32_t(work.field.surface), std::move(without)}, work.newGesture());
+    }
+    toolTip("Without the file");
+}
+
+void strokesRow(Workspace& work) {
+    size_t count = 0;
+    for (size_t s = 0; s < work.scene().surfaces.size(); ++s) count += fieldNow(work, s).strokes.size();
+    if (count == 0) return;
+    if (ImGui::Button("Remove strokes", {-1, 0})) {
+        const uint32_t gesture = work.newGesture();
+        for (size_t s = 0; s < work.scene().surfaces.size(); ++s)
+            if (!fieldNow(work, s).strokes.empty())
+                work.perform(TrimField{uint32_t(s), work.field.name, 0, 0}, gesture);
+    }
+    toolTip(("Strokes of brushes over this field: " + std::to_string(count) + "; Ctrl+Z brings them back").c_str());
+}
+
 void leanRow(Workspace& work) {
     if (work.scene().surfaces.empty()) return;
     float lean = fieldNow(work, 0).lean;
     if (labelledSlider("Leans down", &lean, 0, 8, "%.2f"))
-        for (size_t s = 0; s < work.scene().surfaces.size(); ++s) {
-            SceneField field = fieldNow(work, s);
-            field.lean = lean;
-            work.perform(SetField{uint32_t(s), std::move(field)}, widgetGesture(work));
-        }
+        changeAll(work, widgetGesture(work), [&](SceneField& field) { field.lean = lean; });
     toolTip("How much the field leans downward where no element is felt");
 }
 
@@ -83,14 +151,8 @@ void viewRow(Workspace& work) {
 void exactRow(Workspace& work) {
     if (work.scene().surfaces.empty()) return;
     bool exact = fieldNow(work, 0).exact;
-    if (checkBox("Only these singularities", &exact)) {
-        const uint32_t gesture = work.newGesture();
-        for (size_t s = 0; s < work.scene().surfaces.size(); ++s) {
-            SceneField field = fieldNow(work, s);
-            field.exact = exact;
-            work.perform(SetField{uint32_t(s), std::move(field)}, gesture);
-        }
-    }
+    if (checkBox("Only these singularities", &exact))
+        changeAll(work, work.newGesture(), [&](SceneField& field) { field.exact = exact; });
     toolTip(
         "The field turns about the elements and nowhere else, but for what topology asks for: about a closed body "
         "without "
@@ -116,10 +178,12 @@ void fieldsPanel(Workspace& work) {
     toolTip("Which of the fields that the grammars read");
     rowLabel("Next");
     (void)chooseKind("##next", work.field.kind, true);
-    toolTip("What a click or a drag places");
+    toolTip("What a click or a drag places, or does");
+    if (brushesField(work)) brushRows(work);
     viewRow(work);
     leanRow(work);
     exactRow(work);
+    fileRow(work);
     elementRows(work);
     if (const SceneElement* chosen = chosenElement(work)) {
         std::string kind = chosen->kind;
@@ -136,16 +200,30 @@ void fieldsPanel(Workspace& work) {
         ImGui::TextDisabled("No element is chosen");
     }
     if (ImGui::Button("Remove all", {-1, 0})) {
-        const uint32_t gesture = work.newGesture();
-        for (size_t s = 0; s < work.scene().surfaces.size(); ++s)
-            if (!fieldNow(work, s).elements.empty()) {
-                SceneField field = fieldNow(work, s);
-                field.elements.clear();
-                work.perform(SetField{uint32_t(s), std::move(field)}, gesture);
-            }
+        changeAll(work, work.newGesture(), [](SceneField& field) { field.elements.clear(); });
         work.field.element.reset();
     }
     toolTip("All elements of this field go; Ctrl+Z brings them back");
+    strokesRow(work);
+}
+
+void fieldDialogue(Workspace& work, Session& session) {
+    static PathText path{};
+    askPath(work, session,
+            {kAskField,
+             "A field (.ply with vectors or tensors, .exr over the walk's UVs):",
+             "Load",
+             path,
+             {".ply", ".exr"}},
+            [&](const char* file) {
+                SceneField field = fieldNow(work, work.field.surface);
+                field.file = wholePath(file);
+                field.given.reset();
+                const bool good = work.perform(SetField{uint32_t(work.field.surface), field}, work.newGesture());
+                if (good)
+                    work.say(field.name + " is that of " + std::filesystem::path(file).filename().string() + " now");
+                endWait(work, good);
+            });
 }
 
 }  // namespace sample

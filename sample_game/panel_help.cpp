@@ -46,7 +46,7 @@ void showHelp(Workspace& work) {
         {"H, Shift+H, Alt+H", "hide the chosen plants, all others, show all; numpad / : the chosen alone, and back"},
         {"P, then click", "a branch; [ picks its parent, Del prunes it"},
         {"H, then click", "a house; drag its corners, choose its edges"},
-        {"E, then click", "an element of a field; drag gives its direction"},
+        {"E, then click", "an element of a field; drag gives its direction; [ ] size of the comb"},
         {"Ctrl+drag, Del", "a new corner in an edge, the chosen edge's corner goes"}};
     const Row all[] = {{"Ctrl+Z, Ctrl+Shift+Z or Ctrl+Y", "undo, redo: of everything"},
                        {"Ctrl+S, Ctrl+Shift+S", "save, save as"},

@@ -93,10 +93,10 @@ struct Workspace {
     std::vector<EspPathSample> pointed;  // the walk of the branch under the mouse, while one may be picked
     std::optional<uint32_t> house;       // of the town, that was chosen
     std::optional<uint32_t> houseEdge;   // of its outer ring
-    // The field in hand, the kind and reach of the next element, and the one that is chosen.
+    // The field in hand, the kind and reach of the next element or brush, how strong that is, and the chosen element.
     struct {
         std::string name, kind = "regular";
-        float radius = 0;
+        float radius = 0, strength = .6f;
         size_t surface = 0;
         std::optional<size_t> element;
     } field;

@@ -182,6 +182,25 @@ class Designer {
         set.said = pick(4) > 0;
         return {set};
     }
+    Actions make(BrushField) {
+        Actions drag;
+        BrushField brush{0, pick(2) ? "flow" : "lie", {pick(2) ? "comb" : "smooth", chance(.1f, 1), chance(0, 1), {}}};
+        for (size_t i = 1 + pick(3); i > 0; --i) {
+            brush.stroke.points = {{chance(-2, 2), chance(0, 2), 0}, {chance(-2, 2), chance(0, 2), 0}};
+            drag.push_back(brush);
+            brush.goesOn = true;
+        }
+        return drag;
+    }
+    Actions make(TrimField) {
+        for (const scene::SceneField& field : scene().surfaces[0].fields) {
+            if (field.strokes.empty()) continue;
+            const uint32_t strokes = pick(field.strokes.size() + 1);
+            const size_t points = strokes > 0 ? field.strokes[strokes - 1].points.size() : 0;
+            return {TrimField{0, field.name, strokes, uint32_t(points ? pick(points + 1) : 0), pick(4) > 0}};
+        }
+        return {};
+    }
     Actions make(PlaceSurface) {
         return {PlaceSurface{0, {chance(-.3f, .3f), 0, chance(-.3f, .3f)}, chance(-.2f, .2f), 1, chance(0, 1) < .5f}};
     }

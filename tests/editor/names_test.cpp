@@ -60,6 +60,9 @@ TEST_CASE("each step of undo is called by what it changed, and of what") {
 
     CHECK(named(SetField{0, {"flow", {0, -1, 0}, 1, {{"node", {0, 1, 0}}}}}) == "New element of flow");
     CHECK(named(SetField{0, {"flow", {0, -1, 0}, 1, {}}}) == "Remove elements of flow");
+    CHECK(named(BrushField{0, "flow", {"comb", .1f, .5f, {{0, 1, 0}, {0, 1.1f, 0}}}}) == "Comb flow");
+    CHECK(named(BrushField{0, "flow", {"smooth", .1f, .5f, {{0, 1, 0}}}}) == "Smooth flow");
+    CHECK(named(TrimField{0, "flow", 0, 0}) == "Remove strokes of flow");
     CHECK(named(SetLight{14, 0, true}) == "Time of the day");
     CHECK(named(SetLight{14, 1, true}) == "Exposure");
     CHECK(named(SetLight{14, 1, false}) == "Shadows");

@@ -100,8 +100,11 @@ State stateOf(Editing& editing) {
                                   {look.sunColour[0], look.sunColour[1], look.sunColour[2]},
                                   look.skyColour[2]});
     for (size_t i = 0; i < scene.surfaces.size(); ++i)
-        for (const auto& field : scene.surfaces[i].fields)
-            state["fields of " + std::to_string(i)] += line(SetField{uint32_t(i), field, true});
+        for (const auto& field : scene.surfaces[i].fields) {
+            std::string& fields = state["fields of " + std::to_string(i)];
+            fields += line(SetField{uint32_t(i), field, true});
+            for (const auto& stroke : field.strokes) fields += line(BrushField{uint32_t(i), field.name, stroke});
+        }
     state["walk"] = espalier::scene::nameOf(scene.grow.walk);
     return state;
 }

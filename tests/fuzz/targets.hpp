@@ -28,6 +28,7 @@ void site(Bytes bytes);       // the reader of a scene's furniture
 void town(Bytes bytes);       // the reader of GeoJSON and plans alone, without the roofs
 void project(Bytes bytes);    // reading a project, and saving it into a folder that may hold links
 void graph(Bytes bytes);      // the reader of procedural graphs, reading what it wrote, and running small ones
+void field(Bytes bytes);      // the readers of fields that other programs have computed
 void preset(Bytes bytes);     // the readers of a preset and of the window's layout
 
 struct Target {
@@ -38,6 +39,6 @@ inline constexpr Target kTargets[] = {
     {"gltf", gltf},           {"obj", obj},         {"ply", ply},         {"stl", stl},         {"mtl", mtl},
     {"surface", surface},     {"grammar", grammar}, {"roof", roof},       {"plant", plant},     {"scene", scene},
     {"terminals", terminals}, {"run", run},         {"picture", picture}, {"rulemap", rulemap}, {"site", site},
-    {"town", town},           {"project", project}, {"preset", preset},   {"graph", graph}};
+    {"town", town},           {"project", project}, {"preset", preset},   {"graph", graph},     {"field", field}};
 
 }  // namespace espalier::fuzz

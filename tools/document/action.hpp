@@ -136,7 +136,7 @@ struct SetLight {
     }
 };
 
-// What one field of one surface is made from.
+// What one field of one surface is made from, but for strokes of brushes.
 struct SetField {
     static constexpr const char* kName = "field";
     uint32_t surface = 0;
@@ -145,6 +145,32 @@ struct SetField {
     template <class V>
     void fields(V&& v) {
         v("surface", surface), v("said", said), v("field", field);
+    }
+};
+
+// A stroke of a brush over a field, as its last, or more points of the last one; the field needn't have been told of.
+struct BrushField {
+    static constexpr const char* kName = "brush_field";
+    uint32_t surface = 0;
+    std::string field;
+    scene::SceneStroke stroke;
+    bool goesOn = false;  // with the last stroke, which is of the same brush
+    template <class V>
+    void fields(V&& v) {
+        v("surface", surface), v("field", field), v("stroke", stroke);
+        v.optional("goes_on", goesOn);
+    }
+};
+// Keeps the first strokes of a field, and of the last of these the first points.
+struct TrimField {
+    static constexpr const char* kName = "trim_field";
+    uint32_t surface = 0;
+    std::string field;
+    uint32_t strokes = 0, points = 0;
+    bool said = true;  // false: as a field is of which nothing is said
+    template <class V>
+    void fields(V&& v) {
+        v("surface", surface), v("field", field), v("strokes", strokes), v("points", points), v("said", said);
     }
 };
 
@@ -418,10 +444,10 @@ struct RestoreFrozen {
 using Action =
     std::variant<SetParam, SetText, AddSeeds, RemoveSeeds, ChangeSeeds, SetLight, SetWalk, StrokeBegin, StrokeDabs,
                  StrokeEnd, FillLayer, LoadLayer, FreezeSeeds, PruneBranch, SetHouse, ResetHouse, LoadTownLayer,
-                 SetField, AddSurface, PlaceSurface, AddGrammar, SetLook, SetBookmark, ShowPlants, ShowSurfaces,
-                 LockSurface, ShowHouses, LockHouse, LockLayer, AddGraph, SetGraphText, AddNodes, RemoveNodes,
-                 SetNodeInput, ConnectNodes, MoveNodes, RenameNode, ShowNodes, MuteNodes, SetCamera, SetView,
-                 SetGraphTime, Undo, Redo, SwapStroke, DropLast, RestoreFrozen>;
+                 SetField, BrushField, TrimField, AddSurface, PlaceSurface, AddGrammar, SetLook, SetBookmark,
+                 ShowPlants, ShowSurfaces, LockSurface, ShowHouses, LockHouse, LockLayer, AddGraph, SetGraphText,
+                 AddNodes, RemoveNodes, SetNodeInput, ConnectNodes, MoveNodes, RenameNode, ShowNodes, MuteNodes,
+                 SetCamera, SetView, SetGraphTime, Undo, Redo, SwapStroke, DropLast, RestoreFrozen>;
 
 // The layer that an action begins to change; empty: none.
 std::string layerOf(const Action& action);

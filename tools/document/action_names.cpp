@@ -79,6 +79,14 @@ struct Names {
         return set.param.name;
     }
 
+    scene::SceneField fieldOf(uint32_t surface, const std::string& name) const {
+        const auto& surfaces = document.scene().surfaces;
+        if (surface < surfaces.size())
+            for (const scene::SceneField& field : surfaces[surface].fields)
+                if (field.name == name) return field;
+        return {};
+    }
+
     Name operator()(const SetParam& a) const {
         if (a.grammar >= document.scene().grammars.size()) return a.param.name;
         return labelOf(a) + (document.scene().grammars.size() > 1 ? " (" + ofGrammar(a.grammar) + ")" : "");
@@ -110,14 +118,14 @@ struct Names {
         return changeOf(before, a.house) + (" of " + houseName(document.context(), a.house.index));
     }
     Name operator()(const SetField& a) const {
-        const auto& surfaces = document.scene().surfaces;
-        size_t before = 0;
-        if (a.surface < surfaces.size())
-            for (const scene::SceneField& field : surfaces[a.surface].fields)
-                if (field.name == a.field.name) before = field.elements.size();
-        const size_t now = a.field.elements.size();
-        return (now > before ? "New element of " : now < before ? "Remove elements of " : "Change ") + a.field.name;
+        const scene::SceneField before = fieldOf(a.surface, a.field.name);
+        if (a.field.file != before.file)
+            return a.field.file.empty() ? "No file for " + a.field.name : "Load " + scene::lastPart(a.field.file);
+        const size_t had = before.elements.size(), has = a.field.elements.size();
+        return (has > had ? "New element of " : has < had ? "Remove elements of " : "Change ") + a.field.name;
     }
+    Name operator()(const BrushField& a) const { return (a.stroke.brush == "smooth" ? "Smooth " : "Comb ") + a.field; }
+    Name operator()(const TrimField& a) const { return "Remove strokes of " + a.field; }
     Name operator()(const AddSurface& a) const { return "Add " + scene::lastPart(a.file); }
     Name operator()(const PlaceSurface& a) const {
         const auto& surfaces = document.scene().surfaces;

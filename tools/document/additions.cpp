@@ -19,26 +19,11 @@ bool canStand(const scene::Placing& place) {
     return std::ranges::all_of(place.position, near) && std::isfinite(place.turn) && place.scale >= kSmallest &&
            place.scale <= kLargest;
 }
-// Where a point or, without its position, a direction goes when what it belongs to is moved.
-std::array<float, 3> carried(const std::array<float, 3>& v, const scene::Placing& from, const scene::Placing& to,
-                             bool isPoint) {
-    // A mirror turns the way of what turns before it.
-    const double side = from.mirror == to.mirror ? 1 : -1, turn = double(to.turn) - side * from.turn;
-    const double c = std::cos(turn), s = std::sin(turn), scale = isPoint ? double(to.scale) / from.scale : 1;
-    double at[3];
-    for (size_t i = 0; i < 3; ++i) at[i] = scale * (double(v[i]) - (isPoint ? from.position[i] : 0));
-    at[0] *= side;
-    const double turned[3] = {c * at[0] + s * at[2], at[1], c * at[2] - s * at[0]};
-    std::array<float, 3> out;
-    for (size_t i = 0; i < 3; ++i) out[i] = float(turned[i] + (isPoint ? to.position[i] : 0));
-    return out;
-}
-
 // Position and normal.
 std::array<float, 6> carriedPoint(const std::array<float, 6>& point, const scene::Placing& from,
                                   const scene::Placing& to) {
-    const auto position = carried({point[0], point[1], point[2]}, from, to, true);
-    const auto normal = carried({point[3], point[4], point[5]}, from, to, false);
+    const auto position = scene::carried({point[0], point[1], point[2]}, from, to, true);
+    const auto normal = scene::carried({point[3], point[4], point[5]}, from, to, false);
     return {position[0], position[1], position[2], normal[0], normal[1], normal[2]};
 }
 
@@ -81,8 +66,8 @@ bool Document::carryOut(const PlaceSurface& action, std::vector<Action>& back, s
     const scene::Placing before = std::exchange(surface.placing, place);
     for (const SeedRecord& record : seeds.seeds) {
         scene::Seed& seed = scene_.seeds[indexOf(record.key)];
-        seed.position = carried(record.position, before, place, true);
-        seed.direction = carried(record.direction, before, place, false);
+        seed.position = scene::carried(record.position, before, place, true);
+        seed.direction = scene::carried(record.direction, before, place, false);
         for (auto& point : seed.line) point = carriedPoint(point, before, place);
     }
     // Plants that went along as they were would be others than those that grow there.

@@ -34,6 +34,8 @@ struct RenameSeeds {
     void operator()(SetHouse&) const {}
     void operator()(ResetHouse&) const {}
     void operator()(SetField&) const {}
+    void operator()(BrushField&) const {}
+    void operator()(TrimField&) const {}
     void operator()(AddSurface&) const {}
     void operator()(PlaceSurface&) const {}
     void operator()(AddGrammar&) const {}

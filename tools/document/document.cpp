@@ -77,6 +77,10 @@ bool overwrites(const Action& earlier, const Action& later) {
         const auto& b = std::get<SetField>(later);
         return a->surface == b.surface && a->field.name == b.field.name;
     }
+    if (const auto* a = std::get_if<TrimField>(&earlier)) {
+        const auto& b = std::get<TrimField>(later);
+        return a->surface == b.surface && a->field == b.field;
+    }
     return std::holds_alternative<SetLight>(earlier);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,8 @@ class Document {
     bool carryOut(const SetHouse& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const ResetHouse& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const SetField& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const BrushField& action, std::vector<Action>& back, std::string& error);
+    bool carryOut(const TrimField& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const AddSurface& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const PlaceSurface& action, std::vector<Action>& back, std::string& error);
     bool carryOut(const AddGrammar& action, std::vector<Action>& back, std::string& error);
@@ -156,6 +159,8 @@ class Document {
     bool mayChangeHouse(uint32_t house, std::string& error) const;  // knows it, and it isn't locked
     bool mayPaint(const std::string& layer, std::string& error) const;
     using GraphEdit = std::function<bool(GraphModel& model, std::string& error)>;
+    bool changeField(uint32_t surface, const std::string& name, const std::optional<scene::SceneField>& now,
+                     std::string& error);
     bool editGraph(uint32_t graph, std::vector<Action>& back, std::string& error, const GraphEdit& edit);
 
     EspContext* context_;

@@ -33,6 +33,9 @@ class FieldWriter {
     void optional(const char* name, std::optional<T>& value) {
         if (value) (*this)(name, *value);
     }
+    void optional(const char* name, std::string& value) {
+        if (!value.empty()) (*this)(name, value);
+    }
     // Or where it is false.
     void optional(const char* name, bool& value) {
         if (value) (*this)(name, value);
@@ -80,6 +83,9 @@ class FieldReader {
     }
     template <class T>
     void optional(const char* name, std::vector<T>& value) {
+        if (from_.find(name)) (*this)(name, value);
+    }
+    void optional(const char* name, std::string& value) {
         if (from_.find(name)) (*this)(name, value);
     }
     void optional(const char* name, bool& value) {

@@ -105,6 +105,16 @@ class Parts {
     size_t done_ = 0, count_;
 };
 
+// A project opens without those that can't be read, and keeps their names.
+bool readFields(Scene& out, std::vector<SceneField>& fields, std::string& error) {
+    for (SceneField& field : fields) {
+        if (readGiven(field, error)) continue;
+        if (!out.project) return false;
+        out.notes.push_back(std::exchange(error, {}) + "; the field '" + field.name + "' is without it");
+    }
+    return true;
+}
+
 bool loadSurfaces(EspContext* context, const SceneFile& file, Parts& parts, Scene& out, std::string& error) {
     for (const SceneSurface& described : file.surfaces) {
         parts.begin(described.file);
@@ -115,6 +125,7 @@ bool loadSurfaces(EspContext* context, const SceneFile& file, Parts& parts, Scen
         surface.locked = described.locked;
         if (surface.hidden && !fromContext(context, espHideSurface(context, surface.id, 1), error)) return false;
         surface.fields = described.fields;
+        if (!readFields(out, surface.fields, error)) return false;
         if (!fromContext(context, setFields(context, surface.id, surface.fields), error)) return false;
     }
     return true;

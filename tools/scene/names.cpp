@@ -1,4 +1,4 @@
-// Words of scene files: how views and walks are called, and what a layer may be called.
+// Words of scene files: how views, walks, and parts of fields are called, and what a layer may be called.
 #include <algorithm>
 #include <cctype>
 #include <iterator>
@@ -10,6 +10,8 @@
 namespace espalier::scene {
 namespace {
 
+constexpr const char* kElements[] = {"regular", "wedge", "trisector", "node", "centre", "saddle"};
+constexpr const char* kFieldBrushes[] = {"comb", "smooth"};
 constexpr const char* kViews[] = {"shaded", "charts", "normals", "lod", "layer", "depth", "overdraw", "field"};
 constexpr const char* kGrounds[] = {"none", "meadow", "studio"};
 constexpr const char* kWalks[] = {"intrinsic", "paper"};
@@ -38,6 +40,13 @@ bool walkNamed(const std::string& name, EspWalkMode& out) {
 
 const char* nameOf(EspWalkMode walk) {
     return kWalks[walk];
+}
+
+bool elementNamed(const std::string& name, EspElementKind& out) {
+    return valueNamed(kElements, name, out);
+}
+bool fieldBrushNamed(const std::string& name, EspFieldBrush& out) {
+    return valueNamed(kFieldBrushes, name, out);
 }
 
 bool isLayersName(const std::string& name, std::string& why) {

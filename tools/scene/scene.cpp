@@ -67,6 +67,19 @@ EspTransform Placing::transform() const {
     return {{{side * c, 0, s, position[0]}, {0, scale, 0, position[1]}, {side * -s, 0, c, position[2]}}};
 }
 
+std::array<float, 3> carried(const std::array<float, 3>& v, const Placing& from, const Placing& to, bool isPoint) {
+    // A mirror turns the way of what turns before it.
+    const double side = from.mirror == to.mirror ? 1 : -1, turn = double(to.turn) - side * from.turn;
+    const double c = std::cos(turn), s = std::sin(turn), scale = isPoint ? double(to.scale) / from.scale : 1;
+    double at[3];
+    for (size_t i = 0; i < 3; ++i) at[i] = scale * (double(v[i]) - (isPoint ? from.position[i] : 0));
+    at[0] *= side;
+    const double turned[3] = {c * at[0] + s * at[2], at[1], c * at[2] - s * at[0]};
+    std::array<float, 3> out;
+    for (size_t i = 0; i < 3; ++i) out[i] = float(turned[i] + (isPoint ? to.position[i] : 0));
+    return out;
+}
+
 namespace {
 
 // Frozen plants are what they are.

@@ -42,6 +42,9 @@ struct Placing {
     bool operator==(const Placing&) const = default;
 };
 
+// Where a point or, without its position, a direction goes when what it belongs to is moved.
+std::array<float, 3> carried(const std::array<float, 3>& v, const Placing& from, const Placing& to, bool isPoint);
+
 struct LoadedSurface {
     std::string file;
     Placing placing;

@@ -146,10 +146,10 @@ class Reader : JsonChecks {
     }
     void readFields(const Json& json, std::vector<SceneField>& fields) {
         if (json.kind != Json::Kind::object) return (void)fail(json, "'fields' must be an object");
-        for (const auto& [name, said] : json.members) {
-            if (!isObject(said, "a field", {"drift", "lean", "exact", "elements"})) continue;
+        for (const auto& [called, said] : json.members) {
+            if (!isObject(said, "a field", {"drift", "lean", "exact", "file", "elements", "strokes"})) continue;
             SceneField& field = fields.emplace_back();
-            field.name = name;
+            field.name = called;
             std::optional<std::array<float, 3>> drift;
             vector(said, "drift", drift);
             field.drift = drift.value_or(field.drift);
@@ -157,7 +157,21 @@ class Reader : JsonChecks {
             flag(said, "exact", field.exact);
             if (const Json* elements = list(said, "elements"))
                 for (const Json& element : elements->items) readElement(element, field.elements.emplace_back());
+            if (const Json* name = said.find("file")) field.file = file(*name);
+            if (const Json* strokes = list(said, "strokes"))
+                for (const Json& stroke : strokes->items) readStroke(stroke, field.strokes.emplace_back());
         }
+    }
+    void readStroke(const Json& json, SceneStroke& stroke) {
+        if (!isObject(json, "a stroke", {"brush", "radius", "strength", "points"})) return;
+        EspFieldBrush known;
+        if (json.find("brush")) word(json, "brush", stroke.brush);
+        if (!fieldBrushNamed(stroke.brush, known)) fail(json, "'brush' must be \"comb\" or \"smooth\"");
+        number(json, "radius", 0, 1e9f, stroke.radius);
+        number(json, "strength", 0, 1, stroke.strength);
+        if (const Json* points = list(json, "points"))
+            for (const Json& point : points->items)
+                if (!numbers(point, stroke.points.emplace_back())) fail(point, "a point must be three numbers");
     }
     void readElement(const Json& json, SceneElement& element) {
         if (!isObject(json, "an element", {"kind", "position", "direction", "radius"})) return;

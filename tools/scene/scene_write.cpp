@@ -13,6 +13,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
+using Beside = std::function<std::string(const std::string&)>;
+
 ordered_json linesOf(const std::string& text) {
     ordered_json lines = ordered_json::array();
     for (size_t begin = 0; begin < text.size();) {
@@ -64,13 +66,19 @@ ordered_json townJson(const SceneTown& town, const std::string& file) {
     return json;
 }
 
-ordered_json fieldJson(const SceneField& field) {
+ordered_json fieldJson(const SceneField& field, const Beside& beside) {
     ordered_json json{{"drift", shortestList(field.drift)}, {"lean", shortest(field.lean)}};
+    if (!field.file.empty()) json["file"] = beside(field.file);
     if (field.exact) json["exact"] = true;
     for (const SceneElement& e : field.elements) {
         ordered_json& out = json["elements"].emplace_back(ordered_json{
             {"kind", e.kind}, {"position", shortestList(e.position)}, {"direction", shortestList(e.direction)}});
         if (e.radius > 0) out["radius"] = shortest(e.radius);
+    }
+    for (const SceneStroke& s : field.strokes) {
+        ordered_json& out = json["strokes"].emplace_back(
+            ordered_json{{"brush", s.brush}, {"radius", shortest(s.radius)}, {"strength", shortest(s.strength)}});
+        for (const auto& point : s.points) out["points"].push_back(shortestList(point));
     }
     return json;
 }
@@ -78,8 +86,6 @@ ordered_json fieldJson(const SceneField& field) {
 ordered_json valueJson(const ParamValue& value) {
     return value.count == 3 ? shortestList(value.value) : shortest(value.value[0]);
 }
-
-using Beside = std::function<std::string(const std::string&)>;
 
 ordered_json graphJson(const SceneGraph& graph, const Beside& beside) {
     if (!graph.text) return beside(graph.file);
@@ -132,7 +138,8 @@ std::string writeSceneText(const std::string& path, const SceneFile& file) {
         if (!surface.drawn) json["surfaces"].back()["drawn"] = false;
         if (surface.hidden) json["surfaces"].back()["hidden"] = true;
         if (surface.locked) json["surfaces"].back()["locked"] = true;
-        for (const SceneField& field : surface.fields) json["surfaces"].back()["fields"][field.name] = fieldJson(field);
+        for (const SceneField& field : surface.fields)
+            json["surfaces"].back()["fields"][field.name] = fieldJson(field, beside);
     }
     if (file.town) json["town"] = townJson(*file.town, beside(file.town->file));
     if (!file.site.empty()) json["site"] = beside(file.site);
