@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "sample_game/additions.hpp"
+#include "sample_game/field_brush.hpp"
 #include "sample_game/graph_editor.hpp"
 #include "sample_game/panels.hpp"
 #include "sample_game/theme.hpp"
@@ -113,10 +114,11 @@ Hint hintOf(const Workspace& work, bool caught, bool flying) {
                 "and creases   green: over a seam";
             break;
         case Tool::fields:
-            text =
-                "Click: place an element   drag: with a direction   drag an element: move   drag its arrow: turn   "
-                "Del: "
-                "remove";
+            text = work.field.kind == kComb ? "Drag: comb the field along the way   [ ]: radius"
+                   : work.field.kind == kSmooth
+                       ? "Drag: smooth the field   [ ]: radius"
+                       : "Click: place an element   drag: with a direction   drag an element: move   "
+                         "drag its arrow: turn   Del: remove";
             break;
         case Tool::look:
             text = "Drag: turn around   Shift+drag: sideways   wheel: nearer   right drag: look, with W A S D: fly";

@@ -1,5 +1,6 @@
 // field/…: a field of ten elements on the bunny, from nothing and after one of them turned; beside it the way of the
-// paper, a sum of radial basis functions and Laplacian smoothing (Li 2011 §4.2). CPU time of all threads.
+// paper, a sum of radial basis functions and Laplacian smoothing (Li 2011 §4.2). The same with strokes of brushes over
+// the field, and held by vectors of another program. CPU time of all threads.
 #include <cmath>
 
 #include "runtime/field/element_pull.hpp"
@@ -64,11 +65,78 @@ Field summed(const FieldMesh& mesh, const FieldDesign& design) {
     return field;
 }
 
+// Fifty strokes of twenty places each, along edges from places that are spread over the mesh; every fifth smooths.
+std::vector<FieldStroke> fiftyStrokes(const FieldMesh& mesh) {
+    std::vector<FieldStroke> strokes;
+    for (size_t i = 0; i < 50; ++i) {
+        FieldStroke& stroke = strokes.emplace_back();
+        stroke.brush = i % 5 == 4 ? FieldBrush::smooth : FieldBrush::comb;
+        uint32_t h = mesh.first[mesh.positions.size() * i / 50];
+        while (stroke.points.size() < 20) {
+            stroke.points.emplace_back(mesh.positions[mesh.from(h)]);
+            for (int k = 0; k < 4; ++k) {
+                const uint32_t over = mesh.twin[FieldMesh::next(h)];
+                if (over != kNoIndex) h = FieldMesh::next(over);
+            }
+        }
+    }
+    return strokes;
+}
+
+void strokeRows(Bench& bench, const FieldBench& field, const std::function<double(const std::function<void()>&)>& of) {
+    const FieldSampling sampling(field.surface, field.mesh);
+    FieldSolver solver(field.mesh);
+    FieldDesign design = field.design(false);
+    std::vector<FieldTexel> texels;
+    const auto make = [&](FieldSolver& by) {
+        if (Result<Field> made = by.design(design)) texels = sampling.texels(*made);
+    };
+    make(solver);
+    const double bare = of([&] {
+        design.elements[0].direction.y += .1;
+        make(solver);
+    });
+    design.strokes = fiftyStrokes(field.mesh);
+    const double first = of([&] {
+        FieldSolver another(field.mesh);
+        make(another);
+    });
+    make(solver);
+    FieldStroke& last = design.strokes.back();
+    size_t step = 0;
+    const double longer = of([&] {
+        last.points.push_back(last.points[++step % 20]);
+        make(solver);
+    });
+    const double turned = of([&] {
+        design.elements[0].direction.y += .1;
+        make(solver);
+    });
+    bench.add({"field/strokes/step", "a stroke goes on over 50 others, to texels", "ms", longer, "all anew", first});
+    bench.add({"field/strokes/turned", "an element turned below 50 strokes, to texels", "ms", turned, "without strokes",
+               bare});
+}
+
+void sampleRows(Bench& bench, const FieldBench& field, const std::function<double(const std::function<void()>&)>& of) {
+    auto samples = std::make_shared<FieldSamples>();
+    for (const glm::dvec3& p : field.mesh.positions) {
+        samples->points.emplace_back(p);
+        samples->vectors.emplace_back(glm::cross(glm::vec3(0, 1, 0), glm::vec3(p)));
+    }
+    FieldDesign design;
+    const double drifting = of([&] { (void)designField(field.mesh, design); });
+    design.samples = samples;
+    const double held = of([&] { (void)designField(field.mesh, design); });
+    bench.add({"field/samples/first", "vectors at all vertices", "ms", held, "the drift alone", drifting});
+}
+
 }  // namespace
 
 void fieldCases(Bench& bench) {
     const std::string group = "field/";
-    if (!bench.wants(group + "smooth") && !bench.wants(group + "exact")) return;
+    if (!bench.wants(group + "smooth") && !bench.wants(group + "exact") && !bench.wants(group + "strokes") &&
+        !bench.wants(group + "samples"))
+        return;
     FieldBench field;
     const std::string model = bench.options().dataFolder + "/derived/bunny_unwrap.glb";
     if (Status begun = field.begin(model); !begun) return bench.skip(group, "needs " + model);
@@ -105,6 +173,8 @@ void fieldCases(Bench& bench) {
         });
         bench.add({row + "/turned", "an element turned, to texels", "ms", kept, "all anew", anew});
     }
+    if (bench.wants(group + "strokes")) strokeRows(bench, field, medianOf);
+    if (bench.wants(group + "samples")) sampleRows(bench, field, medianOf);
 }
 
 }  // namespace espalier
