@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "runtime/core/jobs.hpp"
 #include "runtime/field/triangle_weights.hpp"
@@ -125,9 +127,12 @@ class FlatMesh {
     std::vector<Complex> powers_;     // [half-edge]: the field's at the corner that it leaves
 };
 
+uint64_t placeKey(const glm::i64vec3& cell) {
+    return mix64(uint64_t(cell.x) + mix64(uint64_t(cell.y) + mix64(uint64_t(cell.z))));
+}
+
 double noiseAt(const dvec3& p) {
-    const glm::i64vec3 c(glm::floor(p));
-    return double(mix64(uint64_t(c.x) + mix64(uint64_t(c.y) + mix64(uint64_t(c.z)))) >> 40) / double(1 << 24);
+    return double(placeKey(glm::i64vec3(glm::floor(p))) >> 40) / double(1 << 24);
 }
 
 class Marks {
@@ -136,7 +141,7 @@ class Marks {
         for (const Singularity& s : singularitiesOf(mesh, field)) {
             const dvec3 at = placeOf(mesh, s);
             const double radius = kMark * mesh.radius * std::min(std::sqrt(std::abs(s.turns)), kLargest);
-            at_.emplace(keyOf(glm::i64vec3(glm::floor(at / cell_))), Mark{at, radius, s.turns});
+            at_.emplace(placeKey(glm::i64vec3(glm::floor(at / cell_))), Mark{at, radius, s.turns});
         }
     }
     // Lays the marks over a shade.
@@ -144,7 +149,7 @@ class Marks {
         dvec3 shown = shade;
         const glm::i64vec3 low(glm::floor(place / cell_ - .5));
         for (int i = 0; i < 8; ++i) {
-            const auto [begin, end] = at_.equal_range(keyOf(low + glm::i64vec3(i % 2, i / 2 % 2, i / 4)));
+            const auto [begin, end] = at_.equal_range(placeKey(low + glm::i64vec3(i % 2, i / 2 % 2, i / 4)));
             for (auto it = begin; it != end; ++it) {
                 const double away = glm::length(place - it->second.at) / it->second.radius;
                 if (away > 1) continue;
@@ -155,16 +160,40 @@ class Marks {
         return shown;
     }
 
-  private:
     static constexpr double kLargest = 2;
+
+  private:
     struct Mark {
         dvec3 at;
         double radius;
         int turns;
     };
-    static uint64_t keyOf(glm::i64vec3 c) { return mix64(uint64_t(c.x) + mix64(uint64_t(c.y) + mix64(uint64_t(c.z)))); }
     double cell_;
     std::unordered_multimap<uint64_t, Mark> at_;
+};
+
+// Where pictures of two fields may differ: no farther from triangles whose corners differ than streaks and marks reach.
+class Changed {
+  public:
+    Changed(const FieldMesh& mesh, const Field& before, const Field& now) : reach_(kLength * kStreak * mesh.radius) {
+        static_assert(kLength * kStreak > kMark * Marks::kLargest);
+        for (const auto& triangle : mesh.triangles) {
+            if (std::ranges::all_of(triangle, [&](uint32_t v) { return before.power[v] == now.power[v]; })) continue;
+            dvec3 low(mesh.positions[triangle[0]]), high(low);
+            for (const uint32_t v : triangle)
+                low = glm::min(low, mesh.positions[v]), high = glm::max(high, mesh.positions[v]);
+            const glm::i64vec3 first = cellOf(low - reach_), last = cellOf(high + reach_);
+            for (int64_t x = first.x; x <= last.x; ++x)
+                for (int64_t y = first.y; y <= last.y; ++y)
+                    for (int64_t z = first.z; z <= last.z; ++z) cells_.insert(placeKey({x, y, z}));
+        }
+    }
+    bool near(const dvec3& place) const { return cells_.contains(placeKey(cellOf(place))); }
+
+  private:
+    glm::i64vec3 cellOf(const dvec3& place) const { return glm::i64vec3(glm::floor(place / reach_)); }
+    const double reach_;
+    std::unordered_set<uint64_t> cells_;
 };
 
 class Convolution {
@@ -178,26 +207,33 @@ class Convolution {
           width_(kStreak * mesh.radius) {}
 
     FieldPicture run() const {
-        const SurfaceLevelData& level = surface_.levels[0];
         FieldPicture picture;
-        picture.size = std::min(level.size, kMostTexels);
-        const uint32_t step = level.size / picture.size;
+        picture.size = std::min(surface_.levels[0].size, kMostTexels);
         for (auto& channel : picture.channels) channel.assign(size_t(picture.size) * picture.size, 0);
+        paint(picture, [](const dvec3&) { return true; });
+        return picture;
+    }
+    // The texels at places that `wanted` wants.
+    template <class Wanted>
+    void paint(FieldPicture& picture, const Wanted& wanted) const {
+        const uint32_t step = surface_.levels[0].size / picture.size;
         parallelFor(picture.size, 8, [&](size_t begin, size_t end) {
             for (uint32_t y = uint32_t(begin); y < end; ++y)
                 for (uint32_t x = 0; x < picture.size; ++x) {
-                    const dvec3 shown = texel(x * step + step / 2, y * step + step / 2);
+                    const std::optional<Place> place = placeOf(x * step + step / 2, y * step + step / 2);
+                    if (!place || !wanted(flat_.positionOf(*place))) continue;
+                    const dvec3 shown = shadeAt(*place);
                     for (int c = 0; c < 3; ++c) picture.channels[c][texelIndex(picture.size, x, y)] = float(shown[c]);
                 }
         });
-        return picture;
     }
 
   private:
-    dvec3 texel(uint32_t x, uint32_t y) const {
+    // Nothing: there is no surface.
+    std::optional<Place> placeOf(uint32_t x, uint32_t y) const {
         const SurfaceLevelData& level = surface_.levels[0];
         const uint32_t triangle = level.aux[texelIndex(level.size, x, y)].triangle;
-        if (triangle == kNoIndex || mesh_.triangleOf[triangle] == kNoIndex) return dvec3(0);
+        if (triangle == kNoIndex || mesh_.triangleOf[triangle] == kNoIndex) return std::nullopt;
         Place place{mesh_.triangleOf[triangle], {}};
         const std::array<double, 3> weights =
             weightsAt(surface_.triangles[triangle], (glm::dvec2(x, y) + .5) / double(level.size), 0);
@@ -206,6 +242,9 @@ class Convolution {
         double inside = 0;
         for (double& w : place.weights) inside += w = std::max(w, 0.0);
         for (double& w : place.weights) w /= inside;
+        return place;
+    }
+    dvec3 shadeAt(const Place& place) const {
         double sum = 0;
         for (uint32_t family = 0; family < families_; ++family) sum += streak(place, family);
         // The mean of many samples of noise varies little: contrast is given back.
@@ -242,6 +281,12 @@ class Convolution {
 
 FieldPicture fieldPicture(const SurfaceData& surface, const FieldMesh& mesh, const Field& field) {
     return Convolution(surface, mesh, field).run();
+}
+
+void updateFieldPicture(const SurfaceData& surface, const FieldMesh& mesh, const Field& before, const Field& now,
+                        FieldPicture& picture) {
+    const Changed changed(mesh, before, now);
+    Convolution(surface, mesh, now).paint(picture, [&](const dvec3& place) { return changed.near(place); });
 }
 
 }  // namespace espalier

@@ -18,4 +18,9 @@ struct FieldPicture {
 // it, the larger the more. surface: with aux on its finest level; mesh: made from it.
 FieldPicture fieldPicture(const SurfaceData& surface, const FieldMesh& mesh, const Field& field);
 
+// Makes the picture of a field one of another field of the same mesh and symmetry: the texels that fieldPicture gives,
+// but only those near vertices at which the fields differ are made anew.
+void updateFieldPicture(const SurfaceData& surface, const FieldMesh& mesh, const Field& before, const Field& now,
+                        FieldPicture& picture);
+
 }  // namespace espalier

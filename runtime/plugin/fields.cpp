@@ -1,7 +1,6 @@
 // Enters: fields that were asked for. Leaves: fields as kernels read them, and pictures of them.
 #include <bit>
 
-#include "runtime/field/field_picture.hpp"
 #include "runtime/plugin/context.hpp"
 #include "runtime/plugin/errors.hpp"
 #include "runtime/plugin/given.hpp"
@@ -66,19 +65,33 @@ Result<Field> designed(EspContext& context, const FieldGround& ground, const Ask
     return field;
 }
 
+// What hasn't changed of a picture stays.
+Status showField(EspContext& context, const FieldGround& ground, const Field& field, FieldView::Shown& shown) {
+    if (shown.field.symmetry == field.symmetry && shown.field.power == field.power) return Done{};
+    if (shown.field.symmetry == field.symmetry && shown.field.power.size() == field.power.size())
+        updateFieldPicture(*ground.surface, ground.mesh, shown.field, field, shown.picture);
+    else
+        shown.picture = fieldPicture(*ground.surface, ground.mesh, field);
+    shown.field = field;
+    for (size_t c = 0; c < shown.texels.size(); ++c) {
+        Status made = assign(shown.texels[c], makeBuffer(*context.device, "field picture", shown.picture.channels[c]));
+        if (made) continue;
+        shown.field.power.clear();  // the next picture is made anew
+        return made;
+    }
+    return Done{};
+}
+
 // Of the field that shows under this name, on one surface.
 Status addPicture(EspContext& context, uint32_t id, const FieldInfo& info, std::span<LayerRef> layers) {
     const Result<MadeField*> made = fieldOn(context, id, info);
     if (!made) return made.failure();
     if (!made.value()) return Done{};
-    const FieldGround& ground = context.patterns.ground[id];
-    const FieldPicture picture = fieldPicture(*ground.surface, ground.mesh, made.value()->field);
-    for (size_t c = 0; c < picture.channels.size(); ++c) {
-        Result<Buffer> texels = makeBuffer(*context.device, "field picture", picture.channels[c]);
-        if (!texels) return texels.failure();
-        layers[c] = {addressOf<FloatBuf>(*texels), picture.size, 0};
-        context.patterns.view.texels.push_back(std::move(*texels));
-    }
+    FieldView::Shown& shown = context.patterns.view.shown[id];
+    if (Status painted = showField(context, context.patterns.ground[id], made.value()->field, shown); !painted)
+        return painted;
+    for (size_t c = 0; c < shown.texels.size(); ++c)
+        layers[c] = {addressOf<FloatBuf>(shown.texels[c]), shown.picture.size, 0};
     return Done{};
 }
 
@@ -131,8 +144,9 @@ Result<LayerBuf> fieldLayers(EspContext& context, const FieldInfo& info) {
     forgetGoneFields(context);
     const std::vector<uint64_t> from{context.nodes.fields.version(), context.nodes.tables.version(), info.symmetry,
                                      info.curvature};
-    if (view.name != info.name || view.from != from) {
-        view = {};
+    if (view.name != info.name) view = {};
+    if (view.from != from) {
+        std::erase_if(view.shown, [&](const auto& s) { return !context.surfaces.find(s.first); });
         std::vector<LayerRef> layers(std::max(context.surfaceSlots(), 1u) * kMaxLayers, LayerRef{{nullptr}, 0, .2f});
         Status all = Done{};
         context.surfaces.forEach([&](uint32_t id, const PlacedSurface& surface) {

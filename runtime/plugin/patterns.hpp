@@ -3,6 +3,7 @@
 // Patterns of a context: the pieces there are, fields on surfaces, and what has been derived (patterns.cpp,
 // api_patterns.cpp).
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 
 #include "plugin_api/espalier.h"
 #include "runtime/emit/terminals.hpp"
+#include "runtime/field/field_picture.hpp"
 #include "runtime/field/field_solver.hpp"
 #include "runtime/field/field_texels.hpp"
 #include "runtime/gpu/buffer.hpp"
@@ -55,10 +57,15 @@ struct FieldGround {
 
 // A field as pictures show it: three layers a surface, the colours.
 struct FieldView {
+    struct Shown {
+        Field field;
+        FieldPicture picture;  // of that
+        std::array<Buffer, 3> texels;
+    };
     std::string name;
-    std::vector<uint64_t> from;  // versions of what it was made from
-    std::vector<Buffer> texels;
-    Buffer table;  // as EspContext::layerTable, of the first three layers only
+    std::vector<uint64_t> from;       // versions of what it was made from
+    std::map<uint32_t, Shown> shown;  // by surface's id
+    Buffer table;                     // as EspContext::layerTable, of the first three layers only
 };
 
 struct ContextPatterns {

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <random>
 
+#include "runtime/field/field_picture.hpp"
 #include "runtime/field/field_solver.hpp"
-#include "tests/field/shapes.hpp"
+#include "tests/field/baked_shapes.hpp"
 
 using namespace espalier;
 
@@ -164,11 +165,35 @@ TEST_CASE("whatever brushes do, the turns of singularities add up to the Euler c
         }
 }
 
+TEST_CASE("a picture of a field that is brought up to date is the picture that is made anew") {
+    for (const uint32_t symmetry : {1u, 2u, 4u}) {
+        const BakedShape shape(sphereCorners(1, 12), 128);
+        FieldDesign design = drifting(symmetry, {0, 1, 0});
+        Field before = designed(shape.mesh, design);
+        FieldPicture picture = fieldPicture(shape.surface, shape.mesh, before);
+        const FieldPicture first = picture;
+        // Along, and then against all else, which makes singularities.
+        for (const float side : {1.f, -1.f}) {
+            FieldStroke stroke{FieldBrush::comb, {}, .25, 1};
+            for (int i = 0; i <= 12; ++i)
+                stroke.points.push_back(glm::normalize(glm::vec3(1, side * (.05f * float(i) - .3f), .1f * side)));
+            design.strokes.push_back(stroke);
+            const Field now = designed(shape.mesh, design);
+            updateFieldPicture(shape.surface, shape.mesh, before, now, picture);
+            const FieldPicture anew = fieldPicture(shape.surface, shape.mesh, now);
+            CHECK(picture.channels == anew.channels);
+            before = now;
+        }
+        CHECK(picture.channels != first.channels);
+    }
+}
+
 TEST_CASE("strokes without points, of one point, beside the surface and over all of it do no harm") {
     const FieldMesh mesh = makeFieldMesh(sphereCorners(1, 8));
     FieldDesign design = drifting(1, {0, 1, 0});
     const Field before = designed(mesh, design);
-    design.strokes = {{FieldBrush::comb, {}, .5, 1}, {FieldBrush::comb, {{1, 0, 0}}, .5, 1}, {FieldBrush::smooth, {}, .5, 1}};
+    design.strokes = {
+        {FieldBrush::comb, {}, .5, 1}, {FieldBrush::comb, {{1, 0, 0}}, .5, 1}, {FieldBrush::smooth, {}, .5, 1}};
     CHECK(designed(mesh, design).power == before.power);
     design.strokes = {{FieldBrush::smooth, {{1, 0, 0}, {1, 0, 0}}, 100, 1},
                       {FieldBrush::comb, {{5, 5, 5}, {5, 5, 5}}, .1, 1},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/field/element_pull.hpp"
+#include "runtime/field/field_picture.hpp"
 #include "runtime/field/field_solver.hpp"
 #include "runtime/field/field_texels.hpp"
 #include "tools/bake/bake.hpp"
@@ -112,6 +113,17 @@ void strokeRows(Bench& bench, const FieldBench& field, const std::function<doubl
         design.elements[0].direction.y += .1;
         make(solver);
     });
+    FieldPicture picture;
+    Field before = *solver.design(design);
+    const double whole = of([&] { picture = fieldPicture(field.surface, field.mesh, before); });
+    const double shown = of([&] {
+        last.points.push_back(last.points[++step % 20]);
+        Field now = *solver.design(design);
+        updateFieldPicture(field.surface, field.mesh, before, now, picture);
+        before = std::move(now);
+    });
+    bench.add({"field/strokes/seen", "a stroke goes on, to the picture of the field", "ms", shown, "the whole picture",
+               whole});
     bench.add({"field/strokes/step", "a stroke goes on over 50 others, to texels", "ms", longer, "all anew", first});
     bench.add({"field/strokes/turned", "an element turned below 50 strokes, to texels", "ms", turned, "without strokes",
                bare});
