@@ -18,6 +18,7 @@ using glm::dvec3;
 constexpr double kSamePlace = 1e-5;  // of the radius: between what are roundings of one position
 constexpr double kNear = .01;        // of the radius
 constexpr double kAround = 2;        // of the nearest point's distance: points that count
+constexpr double kMost = 1e30;       // an eigenvalue, so that sums of some stay finite
 constexpr double kNothing = 1e-6;    // of the largest of all: a length that gives no direction
 
 // What one or several samples say in a vertex's plane.
@@ -146,8 +147,8 @@ Result<SampledVertices> sampleVertices(const FieldMesh& mesh, const FieldSamples
     for (size_t v = 0; v < count; ++v) {
         const double length = std::abs(all[v].power);
         if (length > kNothing * largest) out.wish[v] = all[v].power / length;
-        out.mean[v] = float(all[v].mean);
-        out.deviator[v] = float(all[v].deviator);
+        out.mean[v] = float(std::clamp(all[v].mean, -kMost, kMost));
+        out.deviator[v] = float(std::min(all[v].deviator, kMost));
     }
     return out;
 }

@@ -135,7 +135,8 @@ EspResult espRecreate(EspContext* context, const EspHostDevice* given) {
         [&] {
             const EspHostDevice host = takenOr("espRecreate", given, EspHostDevice{});
             if (given)
-                if (const char* mistake = espalier::mistakeIn(host)) throw Refusal{std::string("espRecreate: ") + mistake};
+                if (const char* mistake = espalier::mistakeIn(host))
+                    throw Refusal{std::string("espRecreate: ") + mistake};
             return recreate(*context, given ? &host : nullptr);
         },
         true);

@@ -184,6 +184,13 @@ TEST_CASE("points of another model are refused, and those that lie near by are t
     Result<Field> one = designField(mesh, holding(samples, 1));
     REQUIRE(one);
     CHECK(one->unsampled == mesh.positions.size() - 1);
+    // The largest that floats hold stay numbers, up to texels.
+    const BakedShape shape(planeCorners(2, 8), 64);
+    FieldSamples huge = sampled(shape.places, [](const dvec3&) { return dvec3(3e38, 0, 3e38); });
+    const Result<Field> largest = designField(shape.mesh, holding(huge, 2));
+    REQUIRE(largest);
+    for (const FieldTexel& texel : FieldSampling(shape.surface, shape.mesh).texels(largest.value()))
+        CHECK(std::isfinite(unpackHalf(texel.tensor >> 16)));
     // Vectors that say nothing leave the field to the drift.
     samples.vectors[0] = {0, 0, 0};
     FieldDesign silent = holding(samples, 1), plain;

@@ -102,6 +102,8 @@ TEST_CASE("a hostile field is refused with its file, the place and the cause") {
           ":13: vertex 1: the file ends or holds no number here");
     CHECK(files.told(text("999999999999", xyz + "vx vy vz", "0 0 0 1 0 0\n")) ==
           ":11: the file ends before the 999999999999 elements 'vertex' that its header states");
+    CHECK(files.told(bytesOf(kCorpus + "huge_axes.ply")).find("vertex 0: its tensor is no finite number") !=
+          std::string::npos);
     const std::string binary = bytesOf(kCorpus + "tensors.ply");
     const std::string cut = files.told(binary.substr(0, binary.size() - 3));
     CHECK(cut.find(": byte ") == 0);

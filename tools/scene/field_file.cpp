@@ -84,27 +84,32 @@ class PlyFieldReader {
             for (size_t slot = 0; slot < kSlots; ++slot)
                 if (!std::isfinite(float(row[slot])))
                     return "vertex " + std::to_string(i) + ": " + std::string(names_[slot][0]) + " is no finite number";
-            take(*form, row);
+            if (!take(*form, row)) return "vertex " + std::to_string(i) + ": its tensor is no finite number";
         }
         return {};
     }
 
-    void take(const Form& form, const double* row) {
+    // False: the numbers are too large together.
+    bool take(const Form& form, const double* row) {
         out_.points.push_back({row[0], row[1], row[2]});
         if (form.first == kVector)
             for (size_t k = 0; k < 3; ++k) out_.vectors.push_back(float(row[kVector + k]));
         else if (form.first == kTensor)
             for (size_t k = 0; k < 6; ++k) out_.tensors.push_back(float(row[kTensor + k]));
         else
-            takeFlat(row + kFlat);
+            return takeFlat(row + kFlat);
+        return true;
     }
     // t11 t12 t21 t22 in the axes e1 and e2.
-    void takeFlat(const double* t) {
+    bool takeFlat(const double* t) {
         const double mixed = (t[1] + t[2]) / 2, *e1 = t + 4, *e2 = t + 7;
         constexpr int kPairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
-        for (const auto& [i, j] : kPairs)
-            out_.tensors.push_back(
-                float(t[0] * e1[i] * e1[j] + t[3] * e2[i] * e2[j] + mixed * (e1[i] * e2[j] + e2[i] * e1[j])));
+        for (const auto& [i, j] : kPairs) {
+            const double number = t[0] * e1[i] * e1[j] + t[3] * e2[i] * e2[j] + mixed * (e1[i] * e2[j] + e2[i] * e1[j]);
+            if (!std::isfinite(float(number))) return false;
+            out_.tensors.push_back(float(number));
+        }
+        return true;
     }
 
     // Of the form that is there in part, the first number that isn't.
