@@ -64,6 +64,10 @@ typedef struct EspFieldDef {
     const EspFieldStroke* strokes;
     const float* picture;        /* vectors over the walk's UVs: x, y, z for each texel, rows from v = 0; 0, 0, 0 says nothing */
     uint32_t pictureWidth, pictureHeight; /* up to 16,384 */
+    uint32_t summed;             /* 1: not by one solve but the paper's way (Li 2011): what elements and the drift ask for is
+                                    summed up, then smoothed. Makes many singularities. Not together with `exact`; points
+                                    and pictures are where it begins, and hold nothing */
+    uint32_t passes;             /* of smoothing then, up to 10,000; espDefaultFieldDef: 300 */
 } EspFieldDef;
 ESP_API EspResult espDefaultFieldDef(EspFieldDef* out);   /* nothing of all this; it leans down by 1 */
 

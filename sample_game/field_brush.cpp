@@ -32,10 +32,10 @@ std::optional<size_t> surfaceUnder(const Workspace& work, const EspHit& hit) {
     return std::nullopt;
 }
 
-bool FieldBrush::begin(Workspace& work, glm::vec2 at, uint32_t gesture) {
+std::optional<size_t> FieldBrush::begin(Workspace& work, glm::vec2 at, uint32_t gesture) {
     const auto hit = work.pick(at);
     const auto surface = hit ? surfaceUnder(work, *hit) : std::nullopt;
-    if (!surface) return false;
+    if (!surface) return std::nullopt;
     surface_ = *surface;
     gesture_ = gesture;
     const float scale = work.scene().surfaces[surface_].placing.scale;
@@ -45,7 +45,7 @@ bool FieldBrush::begin(Workspace& work, glm::vec2 at, uint32_t gesture) {
     begun_ = changed_ = false;
     lay(work, at);
     if (work.field.kind == kSmooth) perform(work);
-    return true;
+    return surface;
 }
 
 void FieldBrush::lay(const Workspace& work, glm::vec2 at) {

@@ -17,7 +17,8 @@ std::optional<size_t> surfaceUnder(const Workspace& work, const EspHit& hit);
 // a few pixels, so that the stroke doesn't depend on how fast mouse or frames are.
 class FieldBrush {
   public:
-    bool begin(Workspace& work, glm::vec2 at, uint32_t gesture);  // false: there is no surface
+    // On which of the scene's surfaces; nothing: there is none.
+    std::optional<size_t> begin(Workspace& work, glm::vec2 at, uint32_t gesture);
     void follow(Workspace& work, glm::vec2 at);
     bool changed() const { return changed_; }
     void draw(const Workspace& work) const;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sample_game/widgets.hpp"
+
 namespace sample {
 namespace {
 
@@ -115,7 +117,10 @@ void FieldTool::press(Workspace& work, glm::vec2 at) {
     moved_ = changed_ = false;
     gesture_ = work.newGesture();
     if (brushesField(work)) {
-        if (!brush_.begin(work, at, gesture_)) return work.say("No surface there");
+        const auto surface = brush_.begin(work, at, gesture_);
+        if (!surface) return work.say("No surface there");
+        if (work.field.surface != *surface) work.field.element.reset();
+        work.field.surface = *surface;
         drag_ = Drag::brush;
         return;
     }
@@ -200,7 +205,38 @@ void FieldTool::remove(Workspace& work) {
     work.field.element.reset();
 }
 
-void FieldTool::draw(const Workspace& work) const {
+std::string indexText(float index) {
+    constexpr int kMostDirections = 12;
+    int parts = 1;
+    while (parts < kMostDirections && std::abs(index * float(parts) - std::round(index * float(parts))) > .01f) ++parts;
+    const long turns = std::lround(index * float(parts));
+    return (turns > 0 ? "+" : "") + std::to_string(turns) + (parts > 1 ? "/" + std::to_string(parts) : "");
+}
+
+// Beside the marks that the view of the field has there.
+void FieldTool::drawIndices(const Workspace& work) {
+    constexpr size_t kMost = 200;  // more say nothing
+    const std::string& name = work.scene().viewLayer;
+    if (turns_.name != name || turns_.revision != work.document->revision()) {
+        turns_ = {name, work.document->revision(), {}};
+        for (const auto& surface : work.scene().surfaces) {
+            uint32_t count = 0;
+            if (espFieldSingularities(work.context.get(), surface.id, name.c_str(), nullptr, &count) != ESP_OK)
+                continue;
+            const size_t before = turns_.all.size();
+            turns_.all.resize(before + count);
+            (void)espFieldSingularities(work.context.get(), surface.id, name.c_str(), turns_.all.data() + before,
+                                        &count);
+        }
+    }
+    if (turns_.all.size() > kMost) return;
+    for (const EspSingularity& s : turns_.all)
+        if (const auto at = work.place(vec(s.position)); at && work.visible(vec(s.position)))
+            noteAt(work, *at + glm::vec2(0, 18 * work.scale), indexText(s.index).c_str());  // below an element
+}
+
+void FieldTool::draw(const Workspace& work) {
+    if (work.scene().look.view == ESP_VIEW_FIELD && drag_ == Drag::none) drawIndices(work);
     if (brushesField(work)) brush_.draw(work);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float s = work.scale;

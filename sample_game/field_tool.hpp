@@ -16,9 +16,10 @@ class FieldTool {
     void finish() { drag_ = Drag::none; }
     void remove(Workspace& work);  // the chosen element
     bool dragging() const { return drag_ != Drag::none; }
-    void draw(const Workspace& work) const;
+    void draw(const Workspace& work);
 
   private:
+    void drawIndices(const Workspace& work);
     enum class Drag { none, direction, move, stroke, brush };
     void press(Workspace& work, glm::vec2 at);
     void follow(Workspace& work, glm::vec2 at);
@@ -26,12 +27,21 @@ class FieldTool {
     void layStroke(Workspace& work, const EspHit& hit);
 
     FieldBrush brush_;
+    // Where the field that is seen turns, and the state of the document that this is of.
+    struct {
+        std::string name;
+        uint64_t revision = ~0ull;
+        std::vector<EspSingularity> all;
+    } turns_;
     Drag drag_ = Drag::none;
     glm::vec2 from_{0};
     glm::vec3 laid_{0};  // where the stroke's last element ends
     bool moved_ = false, changed_ = false;
     uint32_t gesture_ = 0;
 };
+
+// An index of whole turns, as "+1/2".
+std::string indexText(float index);
 
 // In the place of a kind of element: a drag lays regular ones that point along its way.
 inline constexpr const char* kStroke = "stroke";

@@ -93,6 +93,22 @@ void brushRows(Workspace& work) {
     toolTip("How much of the way there one stroke goes");
 }
 
+// As in the paper, to be compared.
+void summedRow(Workspace& work) {
+    if (work.scene().surfaces.empty()) return;
+    const SceneField field = fieldNow(work, 0);
+    bool summed = field.summed;
+    if (checkBox("Summed as in Li 2011", &summed))
+        changeAll(work, work.newGesture(), [&](SceneField& f) {
+            f.summed = summed;
+            f.exact = f.exact && !summed;
+        });
+    toolTip("The sum of what elements ask for, smoothed; it turns about many places that nobody asked for");
+    float passes = float(field.passes);
+    if (summed && labelledSlider("Passes", &passes, 0, 1000, "%.0f"))
+        changeAll(work, widgetGesture(work), [&](SceneField& f) { f.passes = uint32_t(passes + .5f); });
+}
+
 // The surface in hand's.
 void fileRow(Workspace& work) {
     if (work.field.surface >= work.scene().surfaces.size()) return;
@@ -152,7 +168,10 @@ void exactRow(Workspace& work) {
     if (work.scene().surfaces.empty()) return;
     bool exact = fieldNow(work, 0).exact;
     if (checkBox("Only these singularities", &exact))
-        changeAll(work, work.newGesture(), [&](SceneField& field) { field.exact = exact; });
+        changeAll(work, work.newGesture(), [&](SceneField& field) {
+            field.exact = exact;
+            field.summed = field.summed && !exact;
+        });
     toolTip(
         "The field turns about the elements and nowhere else, but for what topology asks for: about a closed body "
         "without "
@@ -183,6 +202,7 @@ void fieldsPanel(Workspace& work) {
     viewRow(work);
     leanRow(work);
     exactRow(work);
+    summedRow(work);
     fileRow(work);
     elementRows(work);
     if (const SceneElement* chosen = chosenElement(work)) {

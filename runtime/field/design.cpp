@@ -10,6 +10,7 @@
 #include "runtime/field/exact_field.hpp"
 #include "runtime/field/field_solver.hpp"
 #include "runtime/field/field_strokes.hpp"
+#include "runtime/field/summed_field.hpp"
 
 namespace espalier {
 namespace {
@@ -41,7 +42,7 @@ Matrix smoothness(const FieldMesh& mesh, uint32_t symmetry, const std::vector<do
 
 bool sameBelowStrokes(const FieldDesign& a, const FieldDesign& b) {
     return a.symmetry == b.symmetry && a.elements == b.elements && a.drift == b.drift && a.lean == b.lean &&
-           a.exact == b.exact && a.samples == b.samples;
+           a.exact == b.exact && a.samples == b.samples && a.summed == b.summed && a.passes == b.passes;
 }
 
 Failure tooBad() {
@@ -157,6 +158,7 @@ struct FieldSolver::State {
         return field;
     }
     Result<Field> solved(const FieldDesign& design, const std::vector<AskedElement>& asked, const Pull& all) {
+        if (design.summed) return summedField(mesh, symmetry, all, design.passes);
         if (design.exact) {
             if (!exact) exact.emplace(mesh);
             return exact->design(symmetry, asked, all, [&] { return smooth(all); });

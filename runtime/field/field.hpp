@@ -63,6 +63,11 @@ struct FieldDesign {
     glm::dvec3 drift{0, -1, 0};  // object space: where no element says otherwise the field leans to this direction
     double lean = 1;             // how much; 0: not at all
     bool exact = false;          // the elements' singularities and no others, but for those that topology asks for
+    // The paper's way in place of the solve (Li 2011 §4.2): what elements and the drift ask for is summed up at each
+    // vertex, and then so many passes of Laplacian smoothing go over it. Makes many singularities. Not together with
+    // `exact`; samples are where it begins, and hold nothing.
+    bool summed = false;
+    uint32_t passes = 300;
     // The field that others have computed: it holds wherever it says something, but not within an element's radius.
     // Where the field is exact it turns each piece only as a whole, as the drift does. Null: there is none.
     std::shared_ptr<const FieldSamples> samples = {};

@@ -12,7 +12,7 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kMostElements = 4096, kMostStrokes = 65536, kMostStrokePoints = 1u << 20, kMostPoints = 1u << 24;
-constexpr uint32_t kMostSide = 16384;
+constexpr uint32_t kMostSide = 16384, kMostPasses = 10000;
 
 bool allFinite(const float* numbers, size_t count) {
     return std::all_of(numbers, numbers + count, [](float x) { return std::isfinite(x); });
@@ -100,6 +100,9 @@ EspResult checkField(const EspContext* context, const EspFieldDef& def) {
             return fail(context, ESP_INVALID_ARGUMENT,
                         "espSetField: element " + std::to_string(i) + " is out of range");
     }
+    if (def.summed && def.exact)
+        return fail(context, ESP_INVALID_ARGUMENT, "espSetField: a field is either exact or summed");
+    if (def.passes > kMostPasses) return fail(context, ESP_INVALID_ARGUMENT, "espSetField: more than 10000 passes");
     if (EspResult bad = checkStrokes(context, def)) return bad;
     return checkSamples(context, def);
 }
@@ -110,6 +113,7 @@ void setDefaults(EspFieldDef& def) {
     const AskedField standard;
     std::memcpy(def.drift, standard.drift, sizeof def.drift);
     def.lean = standard.lean;
+    def.passes = standard.passes;
 }
 
 }  // namespace espalier
@@ -139,6 +143,8 @@ EspResult espSetField(EspContext* context, EspSurface surface, const char* name,
         std::memcpy(asked.drift, def.drift, sizeof asked.drift);
         asked.lean = def.lean;
         asked.exact = def.exact != 0;
+        asked.summed = def.summed != 0;
+        asked.passes = def.passes;
         asked.strokes = strokesOf(def);
         takeSamples(def, patterns.asked[key], asked);
         asked.number = context->nodes.fields.change();

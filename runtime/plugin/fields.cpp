@@ -32,6 +32,8 @@ FieldDesign designOf(const AskedField& asked, const PlacedSurface& surface, uint
     design.drift = turnedBy(surface.toObject, asked.drift);
     design.lean = double(asked.lean);
     design.exact = asked.exact;
+    design.summed = asked.summed;
+    design.passes = asked.passes;
     design.strokes = asked.strokes;
     for (const EspFieldElement& e : asked.elements) {
         const FieldElement element{ElementKind(e.kind), glm::dvec3(surface.toObject * glm::vec4(vec(e.position), 1)),

@@ -28,7 +28,8 @@ struct AskedField {
     std::vector<Remainder> remainders;  // of their positions, where the origin has moved
     float drift[3] = {0, -1, 0};
     float lean = 1;
-    bool exact = false;
+    bool exact = false, summed = false;
+    uint32_t passes = 300;
     std::vector<FieldStroke> strokes;
     std::shared_ptr<const FieldSamples> samples;   // null: none
     std::shared_ptr<const VectorPicture> picture;  // likewise

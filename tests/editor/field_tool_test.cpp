@@ -1,4 +1,8 @@
 // Fields in an editor's hands: elements, a comb, a smoothing brush, files of other programs.
+#include <map>
+#include <random>
+
+#include "sample_game/field_tool.hpp"
 #include "tests/editor/widgets.hpp"
 #include "tools/document/run.hpp"
 
@@ -166,6 +170,17 @@ TEST_CASE("smoothing acts with a click, Esc forgets a stroke, and beside the sur
     CHECK(comber.lines() == lines);
 }
 
+TEST_CASE("an index is told in parts of a turn") {
+    using sample::indexText;
+    CHECK(indexText(.5f) == "+1/2");
+    CHECK(indexText(-.5f) == "-1/2");
+    CHECK(indexText(1) == "+1");
+    CHECK(indexText(-1) == "-1");
+    CHECK(indexText(.25f) == "+1/4");
+    CHECK(indexText(-2 / 3.f) == "-2/3");
+    CHECK(indexText(1 / 6.f) == "+1/6");
+}
+
 TEST_CASE("strokes are in the project, and a replayed run lays the same") {
     const Folder folder;
     const std::string path = folder.file("run.jsonl");
@@ -198,6 +213,66 @@ TEST_CASE("strokes are in the project, and a replayed run lays the same") {
     Editing replayed(run.head.scene);
     for (const RunLine& line : run.lines) REQUIRE_MESSAGE(replayed.perform(line.action, line.gesture), replayed.error);
     CHECK(patternOf(replayed.context.get()) == combed);
+}
+
+TEST_CASE("a thousand edits of fields are undone and done again, bit for bit") {
+    constexpr int kEdits = 1000, kLooks = 200;
+    const Folder folder;
+    Editing editing(patternScene(folder));
+    std::mt19937 random(7);
+    const auto chance = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
+    const auto place = [&] { return std::array<float, 3>{chance(-1, 1), chance(0, 2), 0}; };
+    const auto said = [&] {
+        std::string all;
+        for (const SceneField& field : editing.document->scene().surfaces[0].fields) {
+            all += toJson({0, 0, SetField{0, field}});
+            for (const auto& stroke : field.strokes) all += toJson({0, 0, BrushField{0, field.name, stroke}});
+        }
+        return all;
+    };
+    const auto fieldNow = [&] {
+        const auto& fields = editing.document->scene().surfaces[0].fields;
+        return fields.empty() ? SceneField{.name = "flow", .elements = {}} : fields[0];
+    };
+    const auto edit = [&]() -> Action {
+        SetField set{0, fieldNow()};
+        const size_t strokes = set.field.strokes.size();
+        switch (random() % 6) {
+            case 0:
+                set.field.elements.push_back({"node", place(), {1, 0, 0}, chance(.1f, .4f)});
+                if (set.field.elements.size() > 4) set.field.elements.clear();
+                return set;
+            case 1:
+                set.field.lean = chance(0, 2);
+                return set;
+            case 2:
+                if (strokes == 0) return set;
+                return TrimField{0, "flow", uint32_t(random() % strokes), 0, random() % 4 > 0};
+            default:
+                return BrushField{0, "flow", {random() % 3 ? "comb" : "smooth", .3f, chance(0, 1), {place(), place()}}};
+        }
+    };
+    std::vector<std::string> states{said()};
+    std::map<size_t, uint64_t> patterns{{0, patternOf(editing.context.get())}};
+    while (states.size() <= kEdits) {
+        REQUIRE_MESSAGE(editing.perform(edit()), editing.error);
+        states.push_back(said());
+        if ((states.size() - 1) % kLooks == 0) patterns[states.size() - 1] = patternOf(editing.context.get());
+    }
+    REQUIRE(editing.document->undoSteps() == kEdits);
+    const auto check = [&](size_t at) {
+        REQUIRE(said() == states[at]);
+        if (const auto seen = patterns.find(at); seen != patterns.end())
+            CHECK(patternOf(editing.context.get()) == seen->second);
+    };
+    for (size_t at = kEdits; at-- > 0;) {
+        REQUIRE_MESSAGE(editing.perform(Undo{}), editing.error);
+        check(at);
+    }
+    for (size_t at = 1; at <= kEdits; ++at) {
+        REQUIRE_MESSAGE(editing.perform(Redo{}), editing.error);
+        check(at);
+    }
 }
 
 TEST_CASE("a field's file turns the pattern, is undone, saved, and missed with a message") {

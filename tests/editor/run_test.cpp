@@ -26,7 +26,7 @@ TEST_CASE("every action comes back from its line") {
         ResetHouse{3},
         LoadTownLayer{"moss", "moss.png"},
         SetField{1, {"flow", {0, -1, .5f}, .25f, {{"wedge", {1, 2, 3}, {0, 0, 1}, .5f}}}, true},
-        SetField{0, {"flow", {0, -1, 0}, 1, {}, false, "flow.ply"}, true},
+        SetField{0, {"flow", {0, -1, 0}, 1, {}, false, true, 20, "flow.ply"}, true},
         BrushField{0, "flow", {"smooth", .25f, .5f, {{1, 2, 3}, {4, 5, 6}}}, true},
         TrimField{0, "flow", 2, 7, true},
         AddSurface{"wall.surface.glb", {1, 2, -3}, .5f, 2},

@@ -74,6 +74,36 @@ TEST_CASE("a regular element turns the field to its direction") {
     }
 }
 
+TEST_CASE(
+    "a summed field has the elements' directions, more singularities than a solved one, and fewer after smoothing") {
+    const FieldMesh mesh = makeFieldMesh(sphereCorners(1, 20));
+    FieldDesign design;
+    design.lean = 0;
+    for (int i = 0; i < 8; ++i)
+        design.elements.push_back({i % 2 ? ElementKind::wedge : ElementKind::trisector,
+                                   mesh.positions[mesh.positions.size() * size_t(2 * i + 1) / 16],
+                                   {1, .2, .1},
+                                   .2});
+    design.elements.push_back({ElementKind::regular, {0, 1, 0}, {1, 0, 0}, .2});
+    const auto countOf = [&](bool summed, uint32_t passes) {
+        design.summed = summed;
+        design.passes = passes;
+        const Result<Field> field = designField(mesh, design);
+        REQUIRE(field);
+        CHECK(turnsOf(mesh, field.value()) == 4);
+        return singularitiesOf(mesh, field.value()).size();
+    };
+    const size_t rough = countOf(true, 0), smooth = countOf(true, 100), solved = countOf(false, 0);
+    CHECK(rough > smooth);
+    CHECK(smooth >= solved);
+    design.summed = true;
+    design.passes = 0;
+    const Result<Field> field = designField(mesh, design);
+    const auto top = std::ranges::max_element(mesh.positions, {}, &glm::dvec3::y) - mesh.positions.begin();
+    const double turned = std::arg(field.value().power[size_t(top)]) / 2;
+    CHECK(std::abs(glm::dot(mesh.direction(uint32_t(top), turned), glm::dvec3(1, 0, 0))) > .999);
+}
+
 TEST_CASE("a vector field refuses elements of half a turn") {
     FieldDesign design;
     design.symmetry = 1;

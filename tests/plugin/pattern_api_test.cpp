@@ -220,6 +220,14 @@ TEST_CASE("strokes and fields of others that can't be are refused, each with its
     def.pictureHeight = 1;
     refused(def, "more than 16384 texels");
 
+    def = esp::defaults<EspFieldDef>();
+    CHECK(def.passes == 300);
+    def.summed = def.exact = 1;
+    refused(def, "either exact or summed");
+    def.exact = 0;
+    def.passes = 10001;
+    refused(def, "more than 10000 passes");
+
     // Where they lie is known when the surface is asked.
     def = esp::defaults<EspFieldDef>();
     def.points = far;

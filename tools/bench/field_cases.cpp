@@ -3,7 +3,6 @@
 // the field, and held by vectors of another program. CPU time of all threads.
 #include <cmath>
 
-#include "runtime/field/element_pull.hpp"
 #include "runtime/field/field_picture.hpp"
 #include "runtime/field/field_solver.hpp"
 #include "runtime/field/field_texels.hpp"
@@ -14,7 +13,7 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kResolution = 512;
-constexpr int kPasses = 300;  // of the paper's smoothing
+constexpr uint32_t kPasses = 300;  // of the paper's smoothing
 
 struct FieldBench {
     SurfaceData surface;
@@ -45,25 +44,11 @@ struct FieldBench {
 };
 
 // What the paper does with the same elements.
-Field summed(const FieldMesh& mesh, const FieldDesign& design) {
-    Pull pull(mesh.positions.size());
-    FeltElements felt;
-    for (const FieldElement& e : design.elements)
-        addElement(askedElement(mesh, design.symmetry, felt.of(mesh, design.symmetry, e), e), pull);
-    addDrift(mesh, design, pull);
-    std::vector<std::complex<double>> along(mesh.twin.size());
-    for (uint32_t h = 0; h < along.size(); ++h) along[h] = std::polar(1.0, design.symmetry * mesh.transport(h));
-    std::vector<std::complex<double>> power = pull.sum;
-    for (int pass = 0; pass < kPasses; ++pass) {
-        std::vector<std::complex<double>> next = power;
-        for (uint32_t h = 0; h < along.size(); ++h) next[mesh.to(h)] += power[mesh.from(h)] * along[h];
-        for (auto& z : next) z = std::abs(z) > 0 ? z / std::abs(z) : 1;
-        power = std::move(next);
-    }
-    Field field;
-    field.symmetry = design.symmetry;
-    field.power = std::move(power);
-    return field;
+Field summed(const FieldMesh& mesh, FieldDesign design) {
+    design.exact = false;
+    design.summed = true;
+    design.passes = kPasses;
+    return *designField(mesh, design);
 }
 
 // Fifty strokes of twenty places each, along edges from places that are spread over the mesh; every fifth smooths.

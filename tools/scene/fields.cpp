@@ -59,6 +59,8 @@ EspResult setField(EspContext* context, EspSurface surface, const SceneField& fi
     std::memcpy(def.drift, field.drift.data(), sizeof def.drift);
     def.lean = field.lean;
     def.exact = field.exact;
+    def.summed = field.summed;
+    def.passes = field.passes;
     def.strokes = strokes.data();
     def.strokeCount = uint32_t(strokes.size());
     if (field.given) {

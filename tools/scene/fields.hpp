@@ -39,7 +39,9 @@ struct SceneField {
     std::array<float, 3> drift{0, -1, 0};
     float lean = 1;
     std::vector<SceneElement> elements;
-    bool exact = false;                           // no singularities but the elements' and those that topology asks for
+    bool exact = false;   // no singularities but the elements' and those that topology asks for
+    bool summed = false;  // the paper's way, with so many passes of smoothing
+    uint32_t passes = 300;
     std::string file = {};                        // that another program's field comes from; empty: none
     std::shared_ptr<const FieldFile> given = {};  // what the file holds; null: nothing, or it couldn't be read
     std::vector<SceneStroke> strokes = {};
@@ -47,7 +49,8 @@ struct SceneField {
     template <class V>
     void fields(V&& v) {
         v("name", name), v("drift", drift), v("lean", lean), v("elements", elements), v("exact", exact);
-        v.optional("file", file);
+        v.optional("file", file), v.optional("summed", summed);
+        if (summed) v("passes", passes);
     }
     bool operator==(const SceneField&) const = default;
 };

@@ -147,7 +147,8 @@ class Reader : JsonChecks {
     void readFields(const Json& json, std::vector<SceneField>& fields) {
         if (json.kind != Json::Kind::object) return (void)fail(json, "'fields' must be an object");
         for (const auto& [called, said] : json.members) {
-            if (!isObject(said, "a field", {"drift", "lean", "exact", "file", "elements", "strokes"})) continue;
+            if (!isObject(said, "a field", {"drift", "lean", "exact", "mode", "passes", "file", "elements", "strokes"}))
+                continue;
             SceneField& field = fields.emplace_back();
             field.name = called;
             std::optional<std::array<float, 3>> drift;
@@ -155,6 +156,12 @@ class Reader : JsonChecks {
             field.drift = drift.value_or(field.drift);
             number(said, "lean", 0, 1e6f, field.lean);
             flag(said, "exact", field.exact);
+            if (const Json* mode = said.find("mode")) {
+                field.summed = mode->text == "rbf";
+                if (mode->text != "solve" && !field.summed) fail(*mode, "'mode' must be \"solve\" or \"rbf\"");
+                if (field.summed && field.exact) fail(*mode, "a field of the mode \"rbf\" can't be exact");
+            }
+            whole(said, "passes", field.passes, 10000);
             if (const Json* elements = list(said, "elements"))
                 for (const Json& element : elements->items) readElement(element, field.elements.emplace_back());
             if (const Json* name = said.find("file")) field.file = file(*name);
