@@ -310,6 +310,14 @@ TEST_CASE("a field's file turns the pattern, is undone, saved, and missed with a
         Editing opened(folder.file("saved"));
         CHECK(patternOf(opened.context.get()) == turned);
     }
+    const std::string scene = readAll(folder.file("plate.json"));
+    const std::string name = R"("file": "plate.surface.glb")";
+    std::string lost = scene;
+    lost.replace(lost.find(name), name.size(), name + R"(, "fields": {"flow": {"file": "lost.ply"}})");
+    const Ran ran = run(program("espalier-capture") + " " + folder.write("lost.json", lost) + " --size 64x36 -o " +
+                        folder.file("out"));
+    CHECK(ran.code != 0);
+    CHECK(contains(ran.output, "lost.ply: can't be read: No such file"));
     std::filesystem::remove(file);
     Editing without(folder.file("saved"));
     const auto& notes = without.document->scene().notes;

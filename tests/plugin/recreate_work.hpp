@@ -205,6 +205,13 @@ struct Work : Life {
         EspFieldDef field = esp::defaults<EspFieldDef>();
         field.elements = &element;
         field.elementCount = 1;
+        const float way[] = {.4f, .4f, 0, .6f, .6f, 0}, corners[] = {0, 0, 0, 1, 1, 0}, wind[] = {1, 0, 0, 0, 1, 0};
+        const EspFieldStroke stroke{ESP_FIELD_COMB, .3f, .8f, 2, way};
+        field.strokes = &stroke;
+        field.strokeCount = 1;
+        field.points = corners;
+        field.vectors = wind;
+        field.pointCount = 2;
         take([&] { return espSetField(context, hidden, "flow", &field); });
         EspGraphDef boxes{};
         boxes.structSize = sizeof boxes;
