@@ -139,6 +139,31 @@ TEST_CASE("the same way combs the same, however fast the mouse is, and on a surf
     CHECK(glm::distance(sample::vec(fast.fields()[0].strokes[1].points[0]), wanted) < .01f);
 }
 
+TEST_CASE("elements and strokes go along when their surface is moved, and come back to the bit") {
+    const Folder folder;
+    Editing editing(patternScene(folder));
+    SetField set;
+    set.field.name = "flow";
+    set.field.elements = {{"regular", {.3f, 1.1f, 0}, {.6f, .8f, 0}, .3f}};
+    REQUIRE(editing.perform(set));
+    REQUIRE(editing.perform(BrushField{0, "flow", {"comb", .3f, 1, {{-.3f, 1, 0}, {-.2f, 1, 0}, {-.1f, 1, 0}}}}));
+    const uint64_t before = patternOf(editing.context.get());
+    const SceneField field = editing.document->scene().surfaces[0].fields[0];
+    REQUIRE(editing.perform(PlaceSurface{0, {1, .5f, -2}, 3.1415927f / 2, 2, false}));
+    const SceneField moved = editing.document->scene().surfaces[0].fields[0];
+    // A quarter turn, seen from above, takes x to -z.
+    const std::array<float, 3> wanted{1, 2.7f, -2.6f};
+    for (size_t i = 0; i < 3; ++i) CHECK(moved.elements[0].position[i] == doctest::Approx(wanted[i]));
+    CHECK(moved.elements[0].direction[2] == doctest::Approx(-.6f));
+    CHECK(moved.elements[0].radius == doctest::Approx(.6f));
+    CHECK(moved.strokes == field.strokes);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(editing.document->scene().surfaces[0].fields[0] == field);
+    CHECK(patternOf(editing.context.get()) == before);
+    REQUIRE(editing.perform(Redo{}));
+    CHECK(editing.document->scene().surfaces[0].fields[0] == moved);
+}
+
 TEST_CASE("smoothing acts with a click, Esc forgets a stroke, and beside the surface there is none") {
     const Folder folder;
     Comber comber(folder);

@@ -187,7 +187,7 @@ struct AddSurface {
         v.optional("mirror", mirror);
     }
 };
-// Puts a surface elsewhere, with what is planted and painted on it.
+// Puts a surface elsewhere, with what is planted and painted on it, and with its fields' elements.
 struct PlaceSurface {
     static constexpr const char* kName = "place_surface";
     uint32_t surface = 0;

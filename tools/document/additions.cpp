@@ -27,6 +27,12 @@ std::array<float, 6> carriedPoint(const std::array<float, 6>& point, const scene
     return {position[0], position[1], position[2], normal[0], normal[1], normal[2]};
 }
 
+void carry(scene::SceneElement& element, const scene::Placing& from, const scene::Placing& to) {
+    element.position = scene::carried(element.position, from, to, true);
+    element.direction = scene::carried(element.direction, from, to, false);
+    element.radius *= to.scale / from.scale;
+}
+
 constexpr const char* kNoPlace = "a surface stands up to 1e9 m away and has a scale of 1e-6 to 1e6";
 
 }  // namespace
@@ -73,7 +79,15 @@ bool Document::carryOut(const PlaceSurface& action, std::vector<Action>& back, s
     // Plants that went along as they were would be others than those that grow there.
     std::string unplanted;
     (void)plant(unplanted);
-    // Taken back from the last to the first: seeds get their own places to the bit.
+    // Taken back from the last to the first: seeds and elements get their own places to the bit.
+    for (const scene::SceneField& field : std::vector(surface.fields)) {
+        if (field.elements.empty()) continue;
+        scene::SceneField moving = field, stood = field;
+        stood.strokes.clear();  // which stay where they are on the surface
+        back.push_back(SetField{action.surface, std::move(stood)});
+        for (scene::SceneElement& element : moving.elements) carry(element, before, place);
+        if (!changeField(action.surface, field.name, moving, error)) return false;
+    }
     if (!seeds.seeds.empty()) back.push_back(std::move(seeds));
     back.push_back(PlaceSurface{action.surface, before.position, before.turn, before.scale, before.mirror});
     return true;
