@@ -59,7 +59,7 @@ class Sampling {
         const double same = kSamePlace * mesh_.radius, distance = std::sqrt(least);
         near = distance <= kNear * mesh_.radius;
         if (!near) return said(vertex, nearest);
-        const double around = distance <= same ? same : kAround * distance;
+        const double around = kAround * std::max(distance, same);
         Said sum;
         double shares = 0;
         Box box;
