@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/packing.hpp>
 
 #include "runtime/core/jobs.hpp"
 #include "runtime/field/triangle_weights.hpp"
@@ -20,10 +19,6 @@ using Complex = std::complex<double>;
 dvec3 laid(const dvec3& direction, const dvec3& from, const dvec3& to) {
     const double k = glm::dot(to, direction) / std::max(1 + glm::dot(from, to), 1e-3);
     return direction - (from + to) * k;
-}
-
-float half(double x) {
-    return float(std::clamp(x, -60000.0, 60000.0));
 }
 
 Complex powerOf(Complex direction, uint32_t symmetry) {
@@ -77,7 +72,7 @@ std::vector<FieldTexel> FieldSampling::texels(const Field& field) const {
     const SurfaceLevelData& level = surface_.levels[0];
     const auto texel = [&](uint32_t x, uint32_t y) -> FieldTexel {
         const uint32_t triangle = level.aux[texelIndex(level.size, x, y)].triangle;
-        if (triangle == kNoIndex || mesh_.triangleOf[triangle] == kNoIndex) return {0, 0};
+        if (triangle == kNoIndex || mesh_.triangleOf[triangle] == kNoIndex) return {0, 0, 0};
         const uint32_t t = mesh_.triangleOf[triangle];
         const std::array<double, 3> weights =
             weightsAt(surface_.triangles[triangle], (glm::dvec2(x, y) + .5) / double(level.size), .5);
@@ -93,7 +88,7 @@ std::vector<FieldTexel> FieldSampling::texels(const Field& field) const {
         const Complex direction = rootOf(power, field.symmetry);
         return {packOct(planes_[triangle].axis * float(direction.real()) +
                         planes_[triangle].left * float(direction.imag())),
-                glm::packHalf1x16(half(mean)) | uint32_t(glm::packHalf1x16(half(deviator))) << 16};
+                float(mean), float(deviator)};
     };
     std::vector<FieldTexel> all(size_t(level.size) * level.size);
     parallelFor(level.size, 16, [&](size_t begin, size_t end) {

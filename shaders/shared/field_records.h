@@ -6,14 +6,14 @@
 
 ESPALIER_BEGIN
 
-// 8 bytes. direction: octahedral, 2 × 16 bit snorm, one of the field's N directions, in object space; any where there is
-// no surface. tensor: two halves, the mean of the eigenvalues in bits 15..0 and half of their difference in bits 31..16
-// (of a vector field its length).
+// direction: octahedral, 2 × 16 bit snorm, one of the field's N directions, in object space; any where there is no
+// surface. mean: of the eigenvalues; deviator: half of their difference, of a vector field its length. Halves would be
+// too coarse: a length changes by some 0.1 % from a texel to the next.
 struct FieldTexel {
     uint direction;
-    uint tensor;
+    float mean, deviator;
 };
-STATIC_SIZE(FieldTexel, 8);
+STATIC_SIZE(FieldTexel, 12);
 BUFFER(FieldTexelBuf, FieldTexel)
 
 // texels: in texelIndex order, of the surface's finest level, of `size` texels a side. symmetry: N; 0: there is no field.
@@ -24,13 +24,6 @@ struct FieldRef {
 };
 STATIC_SIZE(FieldRef, 16);
 BUFFER(FieldBuf, FieldRef)   // [instance * kMaxFields + field]
-
-FN float unpackHalf(uint h) {
-    uint e = (h >> 10u) & 31u;
-    float small = float(h & 1023u) * 5.96046448e-8f;
-    float size = e == 0u ? small : uintBitsToFloat(((e + 112u) << 23u) | ((h & 1023u) << 13u));
-    return (h & 0x8000u) != 0u ? -size : size;
-}
 
 // The angle in (-pi / n, pi / n] that leads to the nearest of n directions.
 FN float nearestTurn(float angle, float n) {
@@ -74,8 +67,8 @@ FN FieldSample fieldAt(SurfaceBuf surfaces, FieldRef field, uint instance, uint 
         float k = 0.0f;
         sinCosExact(angleBetween(normal, along, unpackOct(t.direction)) * n, s, k);
         power = power + vec2(k, s) * share;
-        f.mean = f.mean + unpackHalf(t.tensor & 0xFFFFu) * share;
-        f.deviator = f.deviator + unpackHalf(t.tensor >> 16u) * share;
+        f.mean = f.mean + t.mean * share;
+        f.deviator = f.deviator + t.deviator * share;
         sum = sum + share;
     }
     float k = sum > 0.0f ? rcpExact(sum) : 0.0f;
