@@ -80,6 +80,7 @@ struct LetDeclaration {
 struct FieldDeclaration {
     std::string name, kind, label;
     ExprId symmetry = kNoExpr;  // of symmetry(N)
+    bool jumps = false;
     Place place;
 };
 

@@ -14,6 +14,7 @@ std::string countText(uint32_t least, uint32_t most) {
 
 Node Expressions::call(const Expr& e, Env& env) {
     std::string name = e.text;
+    if (const std::optional<Node> relation = fieldRelation(e, env)) return *relation;
     bool qualified = name.rfind("context.", 0) == 0;
     if (qualified) name = name.substr(8);
     if (contextByName_.count(name) != 0) return layer(name, e, env);

@@ -125,8 +125,10 @@ class Emitter {
         return {emit(n), 0};
     }
     void noteSlot(uint32_t slot) {
-        const bool query = all_.patterns && slot >= kSlotQuery && slot < kSlotQuery + kMaxQueries;
-        reads_.inputs |= query ? kInputFields : all_.roofs && isOfRepeat(slot) ? kInputOfRoofs : inputBit(slot);
+        if (all_.queries != nullptr && slot >= kSlotQuery && slot < kSlotQuery + kMaxQueries)
+            reads_.inputs |= kInputFields | (queryOfSlope((*all_.queries)[slot - kSlotQuery]) ? kInputSlopes : 0);
+        else
+            reads_.inputs |= all_.roofs && isOfRepeat(slot) ? kInputOfRoofs : inputBit(slot);
         if (slot >= kSlotLayer && slot < kSlotLayer + kMaxLayers) reads_.layers |= 1u << (slot - kSlotLayer);
         if (slot >= kSlotArg && slot < kSlotArg + kMaxArgs) reads_.args |= 1u << (slot - kSlotArg);
     }

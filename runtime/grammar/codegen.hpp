@@ -36,8 +36,9 @@ class CodeGenerator {
     // The value that the host works out for what depends on parameters alone. What goes wrong is in `failure`.
     Value uniform(Node node);
 
-    bool roofs = false, patterns = false;  // to be said before anything is made
-    std::string failure;                   // the first that went wrong in the uniform code, or empty
+    bool roofs = false;                              // to be said before anything is made, as is
+    const std::vector<uint32_t>* queries = nullptr;  // of a grammar of patterns: what its slots from kSlotQuery on hold
+    std::string failure;                             // the first that went wrong in the uniform code, or empty
     std::vector<CodeWord> code;
     std::vector<std::pair<uint32_t, uint32_t>> codePatches;  // code word, uniform
     std::vector<CodeWord> uniformCode;

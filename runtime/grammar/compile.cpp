@@ -74,7 +74,7 @@ Result<RuleMap> compile(Parsed& p) {
     c.kind = grammar::kindOf(c.module);
     c.expressions.ofKind(c.kind);
     c.code.roofs = c.kind == GrammarKind::roofs;
-    c.code.patterns = c.kind == GrammarKind::patterns;
+    if (c.kind == GrammarKind::patterns) c.code.queries = &c.expressions.queries;
     c.expressions.declare();
     // Lowering checks what is in the rules; it can't get stuck on what has been reported so far.
     if (c.kind == GrammarKind::roofs) {

@@ -84,7 +84,9 @@ bool Expressions::declareContext(const ContextDeclaration& c) {
 
 void Expressions::declareField(const FieldDeclaration& f) {
     if (!takeName(f.name, f.place)) return;
-    FieldInfo info{f.name, f.label.empty() ? f.name : f.label, 2, false};
+    FieldInfo info{f.name, f.label.empty() ? f.name : f.label, 2, false, f.jumps};
+    if (f.jumps && !fields.empty())
+        reporter_.error(f.place, f.name, "T goes along the first field, so only that one can say 'jumps'");
     if (f.kind == "vector") {
         info.symmetry = 1;
     } else if (f.kind == "cross") {

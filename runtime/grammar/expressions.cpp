@@ -123,31 +123,6 @@ Node Expressions::lowerName(const std::string& name, const Place& place, Env& en
     return unknown(name, place, env);
 }
 
-// F.value1: a query of the field F, by its name or, as in Li 2011, by its number F1. Nothing: there is no such field.
-std::optional<Node> Expressions::fieldQuery(const std::string& base, const std::string& part, const Place& place,
-                                            const Env& env) {
-    const bool numbered = base.size() == 2 && base[0] == 'F' && base[1] >= '1' && size_t(base[1] - '1') < fields.size();
-    auto field = std::ranges::find(fields, base, &FieldInfo::name);
-    if (field == fields.end() && numbered) field = fields.begin() + (base[1] - '1');
-    if (field == fields.end()) return std::nullopt;
-    used_.insert(field->name);
-    const uint32_t quantity = findQuery(part);
-    if (quantity == kNoIndex) {
-        const std::vector<std::string> known = queryNames();
-        const std::string hint = didYouMean(part, known);
-        return fail(place, env,
-                    "a field is asked for " + base + ".value1, .value2, .Xangle1, .Xangle2 or .sure" + hint);
-    }
-    const uint32_t query = uint32_t(field - fields.begin()) | quantity << 8;
-    auto known = std::ranges::find(queries, query);
-    if (known == queries.end() && queries.size() == kMaxQueries)
-        return fail(place, env, "fields are asked for more than 20 different things in this grammar");
-    if (known == queries.end()) known = queries.insert(queries.end(), query);
-    const Node value = graph_.leaf(Leaf::slot, kSlotQuery + uint32_t(known - queries.begin()));
-    const bool angle = quantity == kQueryAngle1 || quantity == kQueryAngle2;
-    return angle && module_.degrees ? graph_.mul(value, graph_.constant(180 / kPi)) : value;
-}
-
 Node Expressions::lower(ExprId id, Env& env) {
     // Lets unfold on the way down, so the stack is watched there; the graph may be deeper than the text.
     if (nesting_ < kMaxGraph) {

@@ -92,8 +92,10 @@ class Expressions {
     void declareParam(const ParamDeclaration& p, uint32_t& slots);
     bool declareContext(const ContextDeclaration& c);
     void declareField(const FieldDeclaration& f);
+    std::optional<uint32_t> fieldCalled(const std::string& name);
     std::optional<Node> fieldQuery(const std::string& base, const std::string& part, const Place& place,
                                    const Env& env);
+    std::optional<Node> fieldRelation(const Expr& e, const Env& env);
     bool enterLet(const std::string& name, const Place& place, const Env& env);
     Node failTooDeep(const Place& place, const Env& env);
     bool takeName(const std::string& name, const Place& place);

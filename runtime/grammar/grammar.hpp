@@ -50,6 +50,7 @@ struct FieldInfo {
     std::string name, label;
     uint32_t symmetry = 2;
     bool curvature = false;  // the surface's own; else one that is designed
+    bool jumps = false;      // of the first: a way that meets a singularity jumps over it as in Li 2011 §4.3
 };
 
 // Of the statements `width` and `avoid`: metres, 0 without one.

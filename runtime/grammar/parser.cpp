@@ -208,7 +208,7 @@ class Parser {
         module_.lets.push_back(std::move(l));
     }
 
-    // field name : tensor, vector, cross, symmetry(N) or curvature
+    // field name : tensor, vector, cross, symmetry(N) or curvature, then jumps or nothing
     void field() {
         ++at_;
         FieldDeclaration f;
@@ -220,6 +220,8 @@ class Parser {
             f.symmetry = expression();
             expect(")", "behind the number");
         }
+        f.jumps = !now().firstOnLine && atName("jumps");
+        if (f.jumps) ++at_;
         if (at(TokenKind::string)) f.label = tokens_[at_++].text;
         accept(";");
         module_.fields.push_back(std::move(f));

@@ -282,7 +282,7 @@ RuleMapRef RuleMap::refAt(uint64_t address) const {
     ref.ops.v = reinterpret_cast<PatternOp*>(at(kSectionOps));
     ref.queries.v = reinterpret_cast<uint*>(at(kSectionQueries));
     ref.queryCount = sections_[kSectionQueries].count;
-    ref.fieldCount = uint32_t(fields_.size());
+    ref.guide = fields_.empty() ? kGuideNone : fields_[0].jumps ? kGuideJumps : kGuideNearest;
     return ref;
 }
 

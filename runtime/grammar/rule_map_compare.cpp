@@ -14,7 +14,7 @@ bool sameContext(const ContextInfo& a, const ContextInfo& b) {
     return a.name == b.name && a.fill == b.fill;
 }
 bool sameField(const FieldInfo& a, const FieldInfo& b) {
-    return a.name == b.name && a.symmetry == b.symmetry && a.curvature == b.curvature;
+    return a.name == b.name && a.symmetry == b.symmetry && a.curvature == b.curvature && a.jumps == b.jumps;
 }
 bool sameSymbol(const SymbolInfo& a, const SymbolInfo& b) {
     return a.name == b.name && a.argCount == b.argCount && a.grows == b.grows;

@@ -110,6 +110,7 @@ std::vector<uint8_t> RuleMap::save() const {
         body.put(f.label);
         body.put(f.symmetry);
         body.put(static_cast<uint32_t>(f.curvature));
+        body.put(static_cast<uint32_t>(f.jumps));
     }
     body.put(static_cast<uint32_t>(symbols_.size()));
     for (const SymbolInfo& s : plain.symbols_) {
@@ -173,12 +174,13 @@ Result<RuleMap> RuleMap::load(std::span<const uint8_t> bytes, std::string_view f
         std::string label = r.text();
         map.contexts_.push_back({name, label, r.get<float>()});
     }
-    for (uint32_t i = r.count(16); i > 0 && r.good(); --i) {
+    for (uint32_t i = r.count(20); i > 0 && r.good(); --i) {
         FieldInfo f;
         f.name = r.text();
         f.label = r.text();
         f.symmetry = r.get<uint32_t>();
         f.curvature = r.get<uint32_t>() != 0;
+        f.jumps = r.get<uint32_t>() != 0;
         map.fields_.push_back(std::move(f));
     }
     for (uint32_t i = r.count(8); i > 0 && r.good(); --i) {

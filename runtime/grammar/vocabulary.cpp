@@ -166,13 +166,47 @@ constexpr struct {
     {"shedRoof", 4},  {"gambrelRoof", 5}, {"mansardRoof", 6}, {"flatRoof", 7},
 };
 
-// In the order of kQuery..., and the names that Li 2011 §4.3 has for some.
-constexpr struct {
-    std::string_view name;
-    uint32_t query;
-} kQueryWords[] = {{"value1", kQueryValue1},  {"value2", kQueryValue2},  {"Xangle1", kQueryAngle1},
-                   {"Xangle2", kQueryAngle2}, {"sure", kQuerySure},      {"length1", kQueryValue1},
-                   {"length2", kQueryValue2}, {"maxcurv", kQueryValue1}, {"mincurv", kQueryValue2}};
+// Some have the names of Li 2011 §4.3, too.
+constexpr QueryInfo kQueryWords[] = {
+    {"value1", Asked::value, 0},
+    {"value2", Asked::value, 1},
+    {"length1", Asked::value, 0},
+    {"length2", Asked::value, 1},
+    {"maxcurv", Asked::value, 0},
+    {"mincurv", Asked::value, 1},
+    {"Xangle1", Asked::angle, 0},
+    {"Xangle2", Asked::angle, 1},
+    {"sure", Asked::sure},
+    {"vector1.x", Asked::vector, 0, 0},
+    {"vector1.y", Asked::vector, 0, 1},
+    {"vector2.x", Asked::vector, 1, 0},
+    {"vector2.y", Asked::vector, 1, 1},
+    {"gradient1.x", Asked::gradient, 0, 0},
+    {"gradient1.y", Asked::gradient, 0, 1},
+    {"gradient2.x", Asked::gradient, 1, 0},
+    {"gradient2.y", Asked::gradient, 1, 1},
+    {"turn.x", Asked::turn, 0, 0},
+    {"turn.y", Asked::turn, 0, 1},
+    {"jacobian1.xx", Asked::jacobian, 0, 0, 0},
+    {"jacobian1.xy", Asked::jacobian, 0, 0, 1},
+    {"jacobian1.yx", Asked::jacobian, 0, 1, 0},
+    {"jacobian1.yy", Asked::jacobian, 0, 1, 1},
+    {"jacobian2.xx", Asked::jacobian, 1, 0, 0},
+    {"jacobian2.xy", Asked::jacobian, 1, 0, 1},
+    {"jacobian2.yx", Asked::jacobian, 1, 1, 0},
+    {"jacobian2.yy", Asked::jacobian, 1, 1, 1},
+    {"divergence1", Asked::divergence, 0},
+    {"divergence2", Asked::divergence, 1},
+    {"curl1", Asked::curl, 0},
+    {"curl2", Asked::curl, 1},
+};
+
+constexpr RelationInfo kRelations[] = {
+    {"angleTo", Relation::angle, "flow.angleTo(lie), of two fields"},
+    {"gradient1Along", Relation::gradient1, "flow.gradient1Along(lie), of two fields"},
+    {"gradient2Along", Relation::gradient2, "flow.gradient2Along(lie), of two fields"},
+    {"turnAlong", Relation::turn, "flow.turnAlong(lie), of two fields"},
+};
 
 constexpr DirectionInfo kDirections[] = {
     {"up", 0, 1, 0}, {"down", 0, -1, 0}, {"east", 1, 0, 0}, {"west", -1, 0, 0}, {"south", 0, 0, 1}, {"north", 0, 0, -1},
@@ -226,9 +260,11 @@ const float* findRoofWord(std::string_view name) {
     const auto* row = findRow(kRoofWords, name);
     return row != nullptr ? &row->value : nullptr;
 }
-uint32_t findQuery(std::string_view name) {
-    const auto* row = findRow(kQueryWords, name);
-    return row != nullptr ? row->query : kNoIndex;
+const QueryInfo* findQuery(std::string_view name) {
+    return findRow(kQueryWords, name);
+}
+const RelationInfo* findRelation(std::string_view name) {
+    return findRow(kRelations, name);
 }
 std::vector<std::string> queryNames() {
     std::vector<std::string> all;
@@ -266,8 +302,11 @@ std::vector<WordInfo> gatherWords(GrammarKind kind) {
     } else {
         for (const AccessorInfo& a : kAccessors) words.push_back({a.name, {}});
     }
-    if (patterns)
-        for (const auto& query : kQueryWords) words.push_back({query.name, {}});
+    if (patterns) {
+        for (const QueryInfo& query : kQueryWords) words.push_back({query.name, {}});
+        for (const RelationInfo& relation : kRelations)
+            if (findFunction(relation.name) == nullptr) words.push_back({relation.name, relation.usage});
+    }
     for (const DirectionInfo& d : kDirections) words.push_back({d.name, {}});
     for (const std::string_view word : kOtherWords)
         if (word != "field" || patterns) words.push_back({word, {}});

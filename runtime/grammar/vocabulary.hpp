@@ -116,9 +116,25 @@ const DirectionInfo* findDirection(std::string_view name);
 // A name that declarations and rules may not take, and why; empty if free.
 std::string reservedFor(std::string_view name);
 
-// What F.name asks of a field F, as kQuery... counts; kNoIndex: nothing.
-uint32_t findQuery(std::string_view name);
+// What F.name asks of a field F. `which` of its two directions or values, 0 or 1; of vectors and what is asked for each
+// axis the `row`, of a Jacobian the `column`: 0 along the scope's x axis, 1 to its left.
+enum class Asked { value, angle, sure, vector, gradient, turn, jacobian, divergence, curl };
+struct QueryInfo {
+    std::string_view name;
+    Asked asked;
+    uint32_t which = 0, row = 0, column = 0;
+};
+const QueryInfo* findQuery(std::string_view name);
 std::vector<std::string> queryNames();
+
+// What F.name(G) says of two fields: the least angle from F to G, or how F changes along G.
+enum class Relation { angle, gradient1, gradient2, turn };
+struct RelationInfo {
+    std::string_view name;
+    Relation relation;
+    std::string_view usage;
+};
+const RelationInfo* findRelation(std::string_view name);
 
 // A word for who writes a grammar of a kind, and how it is written; the texts end in zeros and stay.
 struct WordInfo {

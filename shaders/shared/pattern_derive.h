@@ -2,24 +2,9 @@
 #ifndef ESPALIER_SHARED_PATTERN_DERIVE_H
 #define ESPALIER_SHARED_PATTERN_DERIVE_H
 #include "shaders/shared/pattern_merge.h"
-#include "shaders/shared/pattern_scope.h"
+#include "shaders/shared/pattern_query.h"
 
 ESPALIER_BEGIN
-
-// What a query of a field gives where a turtle stands.
-FN float queryAt(PatternEnv env, uint grammar, uint query, Turtle t) {
-    FieldRef field = fieldOf(env, grammar, t.w.walk.place >> 16u, queryField(query));
-    if (field.symmetry == 0u) return 0.0f;
-    uint quantity = queryQuantity(query);
-    vec3 axis = tangentOf(fromFrame(t.w, turned(t.turn, vec3(1.0f, 0.0f, 0.0f))), t.w.normal);
-    FieldSample f = fieldSeen(env, field, t.w, axis);
-    float angle = quantity == kQueryAngle2 ? f.angle + 0.5f * kPi : f.angle;
-    // A tensor is in 1/m of object space, a direction without a size has no mean.
-    float k = f.mean != 0.0f ? rcpExact(surfaceScale(env.surfaces, t.w.walk.place >> 16u)) : 1.0f;
-    float value = (f.mean + (quantity == kQueryValue2 ? -f.deviator : f.deviator)) * k;
-    bool asksAngle = quantity == kQueryAngle1 || quantity == kQueryAngle2;
-    return asksAngle ? nearestTurn(angle, float(field.symmetry)) : quantity == kQuerySure ? f.sure : value;
-}
 
 // Runs a stretch of code where a turtle stands: draws, inputs, code. Arguments are in their slots.
 FN void runThere(MACHINE_PARAM PatternEnv env, uint grammar, u64 key, uint firstSite, uint siteCount, uint inputs,
@@ -32,16 +17,13 @@ FN void runThere(MACHINE_PARAM PatternEnv env, uint grammar, u64 key, uint first
         Place p = {};
         p.position = t.w.position;
         p.normal = t.w.normal;
-        p.heading = tangentOf(fromFrame(t.w, turned(t.turn, vec3(1.0f, 0.0f, 0.0f))), t.w.normal);
+        p.heading = xAxisOf(t);
         p.uv = t.w.walk.uv;
         p.instance = instance;
         p.level = 0u;
         giveInputs(MACHINE env.surfaces, env.layers, env.grammars, frameOf(env.surfaces, instance, inputs), grammar,
                    inputs, layers, p, depth, 0u, 0.0f);
-        uint queries = (inputs & kInputFields) != 0u ? env.grammars.v[grammar].queryCount : 0u;
-        for (uint i = 0u; i < queries; ++i) {
-            SET_SLOT(kSlotQuery + i, queryAt(env, grammar, env.grammars.v[grammar].queries.v[i], t));
-        }
+        askFields(MACHINE env, grammar, inputs, t);
     }
     runCode(MACHINE env.grammars.v[grammar].code, code);
 }
@@ -60,7 +42,7 @@ FN bool applyScopeCommand(PatternEnv env, uint grammar, uint kind, vec3 v, INOUT
             vec3 along = turned(t.turn, vec3(v.x, v.y, 0.0f));
             float angle = atan2Exact(along.y, along.x);
             rotateHeading(t.w, angle);
-            stands = walkAlong(env, grammar, env.grammars.v[grammar].fieldCount > 0u, t.w, distance);
+            stands = walkAlong(env, grammar, env.grammars.v[grammar].guide, t.w, distance);
             rotateHeading(t.w, -angle);
         }
     }

@@ -310,14 +310,27 @@ STATIC_SIZE(PatternPart, 112);
 CONST_UINT(kMaxQueries, 20u);
 CONST_UINT(kSlotQuery, 73u);
 CONST_UINT(kInputFields, 1u << 19u);   // the queries' slots
+CONST_UINT(kInputSlopes, 1u << 20u);   // those, too, that say how a field changes
 CONST_UINT(kQueryValue1, 0u);    // the larger eigenvalue; of vectors their length
 CONST_UINT(kQueryValue2, 1u);    // the lesser one
 CONST_UINT(kQueryAngle1, 2u);    // from the scope's x axis to the direction of the first, radians, (-pi / N, pi / N]
 CONST_UINT(kQueryAngle2, 3u);    // and to a quarter turn from it
 CONST_UINT(kQuerySure, 4u);      // 1 where directions around agree, 0 at a singularity
-CONST_UINT(kQuantities, 5u);
+// For each metre along the scope's x axis (X) and to its left (Y):
+CONST_UINT(kQueryTurnX, 5u);     // how the field's direction turns, radians
+CONST_UINT(kQueryTurnY, 6u);
+CONST_UINT(kQueryGrowth1X, 7u);  // how value1 grows
+CONST_UINT(kQueryGrowth1Y, 8u);
+CONST_UINT(kQueryGrowth2X, 9u);
+CONST_UINT(kQueryGrowth2Y, 10u);
+CONST_UINT(kQuantities, 11u);
 FN uint queryField(uint q) { return q & 255u; }
 FN uint queryQuantity(uint q) { return q >> 8u; }
+FN bool queryOfSlope(uint q) { return queryQuantity(q) >= kQueryTurnX; }
+
+CONST_UINT(kGuideNone, 0u);      // straight on
+CONST_UINT(kGuideNearest, 1u);   // along the first field; behind a singularity along the nearest of its directions
+CONST_UINT(kGuideJumps, 2u);     // along the first field; over singularities as in Li 2011 §4.3
 
 BUFFER(PatternOpBuf, PatternOp)
 BUFFER(PatternPartBuf, PatternPart)
@@ -369,7 +382,8 @@ struct RuleMapRef {
     PatternPartBuf parts;
     PatternOpBuf ops;
     UintBuf queries;
-    uint queryCount, fieldCount;
+    uint queryCount;
+    uint guide;          // kGuide...: how a grammar of patterns leads T
 };
 STATIC_SIZE(RuleMapRef, 264);
 BUFFER(RuleMapBuf, RuleMapRef)     // [grammar]

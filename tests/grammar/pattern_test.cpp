@@ -181,6 +181,51 @@ G : bend.mincurv < 0 -> I("torus"))");
     CHECK(again.value().growsAs(map));
 }
 
+TEST_CASE(
+    "what is computed of the same answers of fields asks for them once, and a rule asks for slopes if it reads them") {
+    const RuleMap map = patternMap(R"(
+field flow : vector jumps
+field lie : tensor
+A : flow.divergence1 > 0 -> S(2 + flow.curl1, 2 + flow.jacobian1.xy, 2 + flow.vector1.y) I("star") B
+A -> Rz(flow.Xangle1) I("torus")
+B -> Rz(flow.angleTo(lie)) I("star"))");
+    // Of flow: length, angle, its two gradients, two turns; of lie: the angle.
+    CHECK(map.ref().queryCount == 7);
+    CHECK(map.ref().guide == kGuideJumps);
+    CHECK(map.fields()[0].jumps);
+    const auto inputsOf = [&](const char* symbol) {
+        return RuleMapAccess::record<SymbolRecord>(map, kSectionSymbols, *map.findSymbol(symbol)).inputs;
+    };
+    CHECK((inputsOf("A") & (kInputFields | kInputSlopes)) == (kInputFields | kInputSlopes));
+    const PatternPart star = partsOf(map, "B")[0];
+    const PatternOp turn = RuleMapAccess::record<PatternOp>(map, kSectionOps, star.firstOp);
+    CHECK((turn.inputs & (kInputFields | kInputSlopes)) == kInputFields);
+    const Result<RuleMap> again = RuleMap::load(map.save(), "saved");
+    REQUIRE_MESSAGE(again, (again ? "" : again.failure().text()));
+    CHECK(again.value().growsAs(map));
+    CHECK_FALSE(patternMap("field flow : vector\nA -> T(1) I(\"star\")")
+                    .growsAs(patternMap("field flow : vector jumps\nA -> T(1) I(\"star\")")));
+
+    CHECK(patternRefusal("field f : tensor\nA -> S(f.gradient.x) I(\"star\")").find("did you mean 'gradient1.x'") !=
+          std::string::npos);
+    CHECK(patternRefusal("field f : tensor\nA -> S(f.angleTo) I(\"star\")").find("two fields are wanted") !=
+          std::string::npos);
+    CHECK(patternRefusal("field f : tensor\nA -> S(f.angleTo(g)) I(\"star\")").find("a field's name is wanted") !=
+          std::string::npos);
+    CHECK(patternRefusal("field f : tensor\nA -> S(f.turnTo(f)) I(\"star\")").find("not 'turnTo'") !=
+          std::string::npos);
+    CHECK(patternRefusal("field f : tensor\nfield g : vector jumps\nA -> I(\"star\")").find("only that one can say") !=
+          std::string::npos);
+    std::string many, sum = "0";
+    for (const char* name : {"f", "g", "h", "i"}) {
+        many += std::string("field ") + name + " : vector\n";
+        sum += std::string(" + ") + name + ".divergence1";
+    }
+    const std::string refused = patternRefusal(many + "A -> S(2 + " + sum + ") I(\"star\")");
+    CHECK(refused.find("more than 20 different things") != std::string::npos);
+    CHECK(refused.find("more than 20", refused.find("more than 20") + 1) == std::string::npos);
+}
+
 TEST_CASE("mistakes in patterns are told with their place") {
     CHECK(patternRefusal("A -> IC(\"tours\") A")
               .find("grammar:1:9: A: there is no mesh \"tours\" (did you mean 'torus'?)") != std::string::npos);

@@ -57,17 +57,15 @@ Model square(float side) {
     return model;
 }
 
-Model torus(float large, float small, uint32_t nu, uint32_t nv) {
+Model sheet(uint32_t nu, uint32_t nv, const std::function<glm::vec3(float, float)>& place,
+            const std::function<glm::vec3(float, float)>& normal) {
     Model model;
-    model.name = "torus";
+    model.name = "sheet";
     for (uint32_t i = 0; i <= nu; ++i)
         for (uint32_t j = 0; j <= nv; ++j) {
             const float u = float(i) / float(nu), v = float(j) / float(nv);
-            const float a = 2 * std::numbers::pi_v<float> * (i == nu ? 0 : u);
-            const float b = 2 * std::numbers::pi_v<float> * (j == nv ? 0 : v);
-            const glm::vec3 out(std::cos(a) * std::cos(b), std::sin(b), -std::sin(a) * std::cos(b));
-            model.positions.push_back(glm::vec3(large * std::cos(a), 0, -large * std::sin(a)) + small * out);
-            model.normals.push_back(out);
+            model.positions.push_back(place(u, v));
+            model.normals.push_back(normal(u, v));
             model.uvs.push_back({.03f + .94f * u, .03f + .94f * v});
         }
     for (uint32_t i = 0; i < nu; ++i)
@@ -76,6 +74,21 @@ Model torus(float large, float small, uint32_t nu, uint32_t nv) {
             for (uint32_t k : {a, c, c + 1, a, c + 1, a + 1}) model.indices.push_back(k);
         }
     return model;
+}
+
+Model torus(float large, float small, uint32_t nu, uint32_t nv) {
+    const auto outside = [](float u, float v) {
+        const float a = 2 * std::numbers::pi_v<float> * (u == 1 ? 0 : u);
+        const float b = 2 * std::numbers::pi_v<float> * (v == 1 ? 0 : v);
+        return glm::vec3(std::cos(a) * std::cos(b), std::sin(b), -std::sin(a) * std::cos(b));
+    };
+    return sheet(
+        nu, nv,
+        [&](float u, float v) {
+            const float a = 2 * std::numbers::pi_v<float> * (u == 1 ? 0 : u);
+            return glm::vec3(large * std::cos(a), 0, -large * std::sin(a)) + small * outside(u, v);
+        },
+        outside);
 }
 
 Scene::Scene(const Model& model, uint32_t resolution) {

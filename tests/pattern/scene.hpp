@@ -15,6 +15,9 @@ namespace espalier::patterntest {
 
 // A square of the given side, metres, about the origin, facing up.
 Model square(float side);
+// nu x nv quads over (u, v) in [0, 1]², one chart.
+Model sheet(uint32_t nu, uint32_t nv, const std::function<glm::vec3(float, float)>& place,
+            const std::function<glm::vec3(float, float)>& normal);
 // About the y axis, nu x nv quads, one chart.
 Model torus(float large, float small, uint32_t nu = 96, uint32_t nv = 48);
 
@@ -31,6 +34,7 @@ class Scene {
     const RuleMap& grammar(uint32_t i) const { return grammars_[i]; }
     // The middle of the texel that is nearest, where a seed planted there stands.
     glm::vec3 placeNear(glm::vec3 at) const { return texelNear(at).second; }
+    // A seed's way begins in this direction.
     void plant(glm::vec3 at, glm::vec3 direction, uint32_t grammar = 0, uint64_t number = 1);
     std::vector<Seed>& seeds() { return seeds_; }
 

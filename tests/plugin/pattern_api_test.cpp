@@ -62,10 +62,21 @@ constexpr const char* kVeins =
     "V -> Rz(rand(-20, 20)) Line(merge) { T(0.05, 0, 0) LineSeg(\"tube\", 0.008) V [Rz(80) V] Knot }\n"
     "Knot -> S(0.02) IM(\"ball\", 0.03, 180)\n";
 
+// What fields say, and how they change, of one and between two; a way that jumps over singularities.
+constexpr const char* kSlopes =
+    "field flow : tensor jumps \"Direction\"\n"
+    "field lie : vector\n"
+    "field bend : curvature\n"
+    "Start -> A\n"
+    "A : flow.curl1 > 0 -> S(clamp(abs(bend.gradient1.x) * 0.01, 0.02, 0.05)) IC(\"box\") B\n"
+    "A -> S(clamp(0.03 + 0.01 * lie.divergence1, 0.02, 0.05)) IC(\"torus\") B\n"
+    "B -> [Rz(flow.angleTo(lie)) T(0.06, 0, 0) A] [Rz(flow.Xangle1) T(0.06, 0, 0) A]\n"
+    "     [Rz(2 + lie.turnAlong(flow)) T(0.07, 0, 0) A]\n";
+
 }  // namespace
 
 TEST_CASE("a pattern by kernels is the same to the bit as by native code") {
-    for (const char* rules : {kRings, kInstead, kVeins}) {
+    for (const char* rules : {kRings, kInstead, kVeins, kSlopes}) {
         Pattern native(false, rules), shaders(true, rules);
         CHECK(native.stats().pieces > 20);
         CHECK(native.stats().hash == shaders.stats().hash);
