@@ -9,7 +9,7 @@ namespace espalier {
 namespace {
 
 constexpr uint32_t kMagic = 0x4D525345u;  // "ESRM"
-constexpr uint32_t kVersion = 8;
+constexpr uint32_t kVersion = 9;
 constexpr size_t kHeaderBytes = 24;
 static_assert(std::endian::native == std::endian::little);
 

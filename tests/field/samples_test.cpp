@@ -63,7 +63,7 @@ Errors errorsOf(const BakedShape& shape, const FieldDesign& design, const Formul
         if (glm::length(truth) < .3) return;
         errors.degrees.push_back(
             degreesOff(dvec3(unpackOct(texels[i].direction)), truth, normal, design.symmetry % 2 == 0));
-        errors.lengths.push_back(std::abs(double(unpackHalf(texels[i].tensor >> 16)) / glm::length(truth) - 1));
+        errors.lengths.push_back(std::abs(double(texels[i].deviator) / glm::length(truth) - 1));
     });
     REQUIRE(errors.degrees.size() > 10000);
     return errors;
@@ -204,7 +204,7 @@ TEST_CASE("points of another model are refused, and those that lie near by are t
     const Result<Field> largest = designField(shape.mesh, holding(huge, 2));
     REQUIRE(largest);
     for (const FieldTexel& texel : FieldSampling(shape.surface, shape.mesh).texels(largest.value()))
-        CHECK(std::isfinite(unpackHalf(texel.tensor >> 16)));
+        CHECK(std::isfinite(texel.deviator));
     // Vectors that say nothing leave the field to the drift.
     samples.vectors[0] = {0, 0, 0};
     FieldDesign silent = holding(samples, 1), plain;
