@@ -88,7 +88,10 @@ bool writeLayers(ProjectData& data, const Folder& home, Progress& progress, std:
 bool canName(const std::string& folder, const SceneFile& file, std::string& error) {
     std::vector<std::string> names{file.site, file.pieces, file.town ? file.town->file : ""};
     for (const scene::SceneGraph& graph : file.graphs) names.push_back(graph.file);
-    for (const scene::SceneSurface& surface : file.surfaces) names.push_back(surface.file);
+    for (const scene::SceneSurface& surface : file.surfaces) {
+        names.push_back(surface.file);
+        for (const scene::SceneField& field : surface.fields) names.push_back(field.file);
+    }
     for (const scene::SceneGrammar& grammar : file.grammars) {
         names.push_back(grammar.file);
         for (const scene::TerminalLook& look : grammar.looks) names.insert(names.end(), {look.mesh, look.picture});

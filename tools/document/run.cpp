@@ -49,9 +49,9 @@ std::vector<std::string*> filesOf(Action& action) {
     if (auto* add = std::get_if<AddGrammar>(&action)) return {&add->file};
     if (auto* add = std::get_if<AddGraph>(&action)) return {&add->file};
     std::vector<std::string*> files;
-    if (auto* look = std::get_if<SetLook>(&action))
-        for (std::string* file : {&look->mesh, &look->picture})
-            if (!file->empty()) files.push_back(file);
+    if (auto* look = std::get_if<SetLook>(&action)) files = {&look->mesh, &look->picture};
+    if (auto* set = std::get_if<SetField>(&action)) files = {&set->field.file};
+    std::erase_if(files, [](const std::string* file) { return file->empty(); });
     return files;
 }
 

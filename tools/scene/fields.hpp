@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ struct SceneStroke {
     }
     bool operator==(const SceneStroke&) const = default;
 };
+constexpr uint32_t kUsualPasses = 300;
+
 // The field of this name on one surface.
 struct SceneField {
     std::string name;
@@ -41,7 +44,7 @@ struct SceneField {
     std::vector<SceneElement> elements;
     bool exact = false;   // no singularities but the elements' and those that topology asks for
     bool summed = false;  // the paper's way, with so many passes of smoothing
-    uint32_t passes = 300;
+    uint32_t passes = kUsualPasses;
     std::string file = {};                        // that another program's field comes from; empty: none
     std::shared_ptr<const FieldFile> given = {};  // what the file holds; null: nothing, or it couldn't be read
     std::vector<SceneStroke> strokes = {};
@@ -50,7 +53,10 @@ struct SceneField {
     void fields(V&& v) {
         v("name", name), v("drift", drift), v("lean", lean), v("elements", elements), v("exact", exact);
         v.optional("file", file), v.optional("summed", summed);
-        if (summed) v("passes", passes);
+        std::optional<uint32_t> said = passes;
+        if (!summed && passes == kUsualPasses) said.reset();
+        v.optional("passes", said);
+        passes = said.value_or(kUsualPasses);
     }
     bool operator==(const SceneField&) const = default;
 };

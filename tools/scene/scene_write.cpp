@@ -69,7 +69,7 @@ ordered_json townJson(const SceneTown& town, const std::string& file) {
 ordered_json fieldJson(const SceneField& field, const Beside& beside) {
     ordered_json json{{"drift", shortestList(field.drift)}, {"lean", shortest(field.lean)}};
     if (field.summed) json["mode"] = "rbf";
-    if (field.summed) json["passes"] = field.passes;
+    if (field.summed || field.passes != kUsualPasses) json["passes"] = field.passes;
     if (!field.file.empty()) json["file"] = beside(field.file);
     if (field.exact) json["exact"] = true;
     for (const SceneElement& e : field.elements) {
