@@ -27,10 +27,12 @@ std::array<float, 6> carriedPoint(const std::array<float, 6>& point, const scene
     return {position[0], position[1], position[2], normal[0], normal[1], normal[2]};
 }
 
+constexpr float kMostRadius = 1e9f;  // metres, as espSetField takes it
+
 void carry(scene::SceneElement& element, const scene::Placing& from, const scene::Placing& to) {
     element.position = scene::carried(element.position, from, to, true);
     element.direction = scene::carried(element.direction, from, to, false);
-    element.radius *= to.scale / from.scale;
+    element.radius = std::min(element.radius * (to.scale / from.scale), kMostRadius);
 }
 
 constexpr const char* kNoPlace = "a surface stands up to 1e9 m away and has a scale of 1e-6 to 1e6";
@@ -51,6 +53,17 @@ bool Document::carryOut(const AddSurface& action, std::vector<Action>& back, std
     return true;
 }
 
+// Takes a surface's elements to where it will stand. Fails where one of them can't be there.
+bool Document::carryFields(uint32_t surface, const scene::Placing& to, std::string& error) {
+    const scene::Placing from = scene_.surfaces[surface].placing;
+    for (scene::SceneField field : std::vector(scene_.surfaces[surface].fields)) {
+        if (field.elements.empty()) continue;
+        for (scene::SceneElement& element : field.elements) carry(element, from, to);
+        if (!changeField(surface, field.name, field, error)) return false;
+    }
+    return true;
+}
+
 bool Document::carryOut(const PlaceSurface& action, std::vector<Action>& back, std::string& error) {
     const scene::Placing place{action.position, action.turn, action.scale, action.mirror};
     if (action.surface >= scene_.surfaces.size() || !canStand(place)) {
@@ -67,8 +80,13 @@ bool Document::carryOut(const PlaceSurface& action, std::vector<Action>& back, s
     for (const scene::Seed& seed : scene_.seeds)
         if (EspHit hit; espNearest(context_, seed.position.data(), &hit) == ESP_OK && hit.surface.id == surface.id.id)
             seeds.seeds.push_back(recordOf(seed));
+    const std::vector<scene::SceneField> fields = surface.fields;
     const EspTransform moved = place.transform();
-    if (failed(espMoveSurface(context_, surface.id, &moved), error)) return false;
+    if (!carryFields(action.surface, place, error) || failed(espMoveSurface(context_, surface.id, &moved), error)) {
+        std::string unheard;
+        for (const scene::SceneField& field : fields) (void)changeField(action.surface, field.name, field, unheard);
+        return false;
+    }
     const scene::Placing before = std::exchange(surface.placing, place);
     for (const SeedRecord& record : seeds.seeds) {
         scene::Seed& seed = scene_.seeds[indexOf(record.key)];
@@ -80,13 +98,10 @@ bool Document::carryOut(const PlaceSurface& action, std::vector<Action>& back, s
     std::string unplanted;
     (void)plant(unplanted);
     // Taken back from the last to the first: seeds and elements get their own places to the bit.
-    for (const scene::SceneField& field : std::vector(surface.fields)) {
-        if (field.elements.empty()) continue;
-        scene::SceneField moving = field, stood = field;
+    for (scene::SceneField stood : fields) {
+        if (stood.elements.empty()) continue;
         stood.strokes.clear();  // which stay where they are on the surface
         back.push_back(SetField{action.surface, std::move(stood)});
-        for (scene::SceneElement& element : moving.elements) carry(element, before, place);
-        if (!changeField(action.surface, field.name, moving, error)) return false;
     }
     if (!seeds.seeds.empty()) back.push_back(std::move(seeds));
     back.push_back(PlaceSurface{action.surface, before.position, before.turn, before.scale, before.mirror});

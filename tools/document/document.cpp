@@ -84,6 +84,13 @@ bool overwrites(const Action& earlier, const Action& later) {
     return std::holds_alternative<SetLight>(earlier);
 }
 
+// The last of the earlier actions set all that the later ones do.
+bool endsLike(const std::vector<Action>& earlier, const std::vector<Action>& later) {
+    return earlier.size() >= later.size() &&
+           std::equal(later.rbegin(), later.rend(), earlier.rbegin(),
+                      [](const Action& after, const Action& before) { return overwrites(before, after); });
+}
+
 }  // namespace
 
 Document::~Document() {
@@ -173,10 +180,7 @@ void Document::remember(const Action& action, std::string name, std::vector<Acti
     if (gesture && undoGesture() == gesture) {
         Step& step = done_.back();
         step.state = ++lastState_;
-        for (Action& inverse : back) {
-            const bool known = !step.back.empty() && overwrites(step.back.back(), inverse);
-            if (!known) step.back.push_back(std::move(inverse));
-        }
+        if (!endsLike(step.back, back)) std::ranges::move(back, std::back_inserter(step.back));
         if (std::holds_alternative<AddSeeds>(action)) step.name = plantingName(step.back);
         const auto* set = std::get_if<SetParam>(&action);
         if (set && step.name != name) step.name = "Values of " + grammarName(scene_, set->grammar);
@@ -214,7 +218,10 @@ std::vector<std::string> Document::filesOfHistory() const {
 // Counts the last of the steps, which has come or changed, and forgets the first ones if it is too much.
 void Document::keep(std::vector<Step>& steps) {
     steps.back().bytes = 0;
-    for (Action& action : steps.back().back) steps.back().bytes += keptBytes(action);
+    for (Action& action : steps.back().back) {
+        steps.back().bytes += keptBytes(action);
+        if (const auto* set = std::get_if<SetField>(&action)) steps.back().bytes += droppedBytes(*set);
+    }
     size_t bytes = historyBytes();
     auto kept = steps.begin();
     while (kept + 1 < steps.end() && (bytes > maxHistoryBytes_ || size_t(steps.end() - kept) > kMaxSteps))

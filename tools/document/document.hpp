@@ -159,6 +159,8 @@ class Document {
     bool mayChangeHouse(uint32_t house, std::string& error) const;  // knows it, and it isn't locked
     bool mayPaint(const std::string& layer, std::string& error) const;
     using GraphEdit = std::function<bool(GraphModel& model, std::string& error)>;
+    bool carryFields(uint32_t surface, const scene::Placing& to, std::string& error);
+    size_t droppedBytes(const SetField& back) const;  // of a file that only the history has now
     bool changeField(uint32_t surface, const std::string& name, const std::optional<scene::SceneField>& now,
                      std::string& error);
     bool editGraph(uint32_t graph, std::vector<Action>& back, std::string& error, const GraphEdit& edit);

@@ -56,6 +56,12 @@ SetField withoutStrokes(uint32_t surface, SceneField field, bool said) {
 
 }  // namespace
 
+// Many steps may share one file, but only one of them let it go.
+size_t Document::droppedBytes(const SetField& back) const {
+    const SceneField* now = fieldOf(scene_, back.surface, back.field.name);
+    return back.field.given && (!now || now->given != back.field.given) ? back.field.given->bytes() : 0;
+}
+
 // Gives the surface the field, or takes it from it. The context may refuse; then all is as it was.
 bool Document::changeField(uint32_t surface, const std::string& name, const std::optional<SceneField>& now,
                            std::string& error) {

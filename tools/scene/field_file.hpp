@@ -16,6 +16,10 @@ struct FieldFile {
     std::vector<float> vectors;                 // three for each point, or for each texel, rows from v = 0
     std::vector<float> tensors;                 // or six for each point: xx, yy, zz, xy, xz, yz
     uint32_t width = 0, height = 0;             // of a picture, which has no points
+
+    size_t bytes() const {
+        return points.size() * sizeof points[0] + (vectors.size() + tensors.size()) * sizeof(float);
+    }
 };
 
 // PLY with vectors or tensors at vertices, and OpenEXR with vectors as red, green and blue, told by their first bytes
