@@ -184,7 +184,7 @@ Result<Field> FieldSolver::design(const FieldDesign& design) {
     }
     if (design.strokes.empty()) return s.plain;
     Field field = s.plain;
-    if (!s.strokes.lay(design.strokes, field)) return tooBad();
+    if (Status laid = s.strokes.lay(design.strokes, field); !laid) return laid.failure();
     return field;
 }
 

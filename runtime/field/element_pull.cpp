@@ -22,7 +22,8 @@ FeltElement feltElement(const FieldMesh& mesh, uint32_t symmetry, const FieldEle
     FeltElement felt{element, nearestVertex(mesh, element.position), {}, 0, {}, {}};
     const double radius = element.radius > 0 ? element.radius : mesh.radius / 10;
     const PolarMap map = polarMap(mesh, felt.centre, kFelt * radius);
-    const std::vector<double> carried = carriedAngles(mesh, map);
+    std::vector<double> carried;
+    carryAngles(mesh, map, carried);
     const double index = indexOf(element.kind);
     felt.vertices = map.reached;
     for (uint32_t v : map.reached) {
@@ -38,8 +39,9 @@ FeltElement feltElement(const FieldMesh& mesh, uint32_t symmetry, const FieldEle
 }  // namespace
 
 // It is handed on from the neighbour that the way passes nearest to.
-std::vector<double> carriedAngles(const FieldMesh& mesh, const PolarMap& map) {
-    std::vector<double> carried(mesh.positions.size(), 0);
+void carryAngles(const FieldMesh& mesh, const PolarMap& map, std::vector<double>& carried) {
+    carried.resize(mesh.positions.size());
+    for (uint32_t v : map.reached) carried[v] = 0;
     for (uint32_t v : map.reached) {
         if (map.distance[v] == 0) continue;
         double best = map.distance[v];
@@ -55,7 +57,6 @@ std::vector<double> carriedAngles(const FieldMesh& mesh, const PolarMap& map) {
             h = mesh.twin[FieldMesh::previous(h)];
         } while (h != kNoIndex && h != mesh.first[v]);
     }
-    return carried;
 }
 
 uint32_t nearestVertex(const FieldMesh& mesh, const glm::dvec3& place) {

@@ -43,8 +43,9 @@ class FeltElements {
 
 uint32_t nearestVertex(const FieldMesh& mesh, const glm::dvec3& place);
 
-// [vertex]: the angle that parallel transport from the map's centre adds along the shortest way there.
-std::vector<double> carriedAngles(const FieldMesh& mesh, const PolarMap& map);
+// carried: [vertex], the angle that parallel transport from the map's centre adds along the shortest way there; of
+// vertices that the map doesn't reach it stays as it was.
+void carryAngles(const FieldMesh& mesh, const PolarMap& map, std::vector<double>& carried);
 
 AskedElement askedElement(const FieldMesh& mesh, uint32_t symmetry, const FeltElement& felt,
                           const FieldElement& element);

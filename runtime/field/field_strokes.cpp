@@ -6,7 +6,6 @@
 
 #include <Eigen/Sparse>
 #include <cmath>
-#include <unordered_map>
 
 #include "runtime/field/element_pull.hpp"
 #include "runtime/field/polar_map.hpp"
@@ -25,6 +24,7 @@ constexpr double kWayThrough =
 constexpr double kLeastLeft = .02;  // of what was below a stroke of full strength
 constexpr double kRelaxed = .25;    // radius², by one stroke of full strength
 constexpr double kLeastRelaxed = 1e-4;  // of a vertex's own area: less of it moves nothing
+constexpr double kMostRelaxed = 100;    // radius² of the mesh: with more of it the system loses its digits
 
 // What a stroke does at a vertex.
 struct Touch {
@@ -37,14 +37,8 @@ struct Touch {
 struct Layer {
     FieldStroke stroke;
     size_t laid = 0;  // of its points
+    size_t felt = 0;  // by vertices: each counts once for each point
     std::vector<Touch> touches;
-    std::unordered_map<uint32_t, size_t> at;  // [vertex]: place in touches
-
-    Touch& touch(uint32_t vertex) {
-        const auto [found, fresh] = at.try_emplace(vertex, touches.size());
-        if (fresh) touches.push_back({vertex});
-        return touches[found->second];
-    }
 };
 
 // `longer` begins as `stroke` does.
@@ -58,21 +52,37 @@ bool continues(const FieldStroke& longer, const FieldStroke& stroke) {
 
 struct FieldStrokes::State {
     const FieldMesh& mesh;
+    const size_t mostFelt;
     uint32_t symmetry = 0;
-    BoxTree vertices;
+    BoxTree vertices;  // empty until a stroke has points
     std::vector<Layer> layers;
+    // Of the layer in hand:
+    std::vector<uint32_t> place;  // [vertex]: in its touches; kNoIndex: it has none
+    PolarMap map;                 // of its last point
+    std::vector<double> carried;
 
-    explicit State(const FieldMesh& of) : mesh(of) {
+    State(const FieldMesh& of, size_t most) : mesh(of), mostFelt(most) {}
+
+    void begin() {
+        if (!vertices.empty()) return;
         std::vector<Box> boxes(mesh.positions.size());
         for (size_t v = 0; v < boxes.size(); ++v) boxes[v].add(mesh.positions[v]);
         vertices = BoxTree(std::move(boxes), {});
     }
 
-    uint32_t nearest(const dvec3& place) const {
+    Touch& touch(Layer& layer, uint32_t vertex) {
+        if (place[vertex] == kNoIndex) {
+            place[vertex] = uint32_t(layer.touches.size());
+            layer.touches.push_back({vertex});
+        }
+        return layer.touches[place[vertex]];
+    }
+
+    uint32_t nearest(const dvec3& at) const {
         uint32_t found = 0;
         double least = std::numeric_limits<double>::infinity();
-        vertices.nearestSquare(place, [&](uint32_t v) {
-            const dvec3 way = mesh.positions[v] - place;
+        vertices.nearestSquare(at, [&](uint32_t v) {
+            const dvec3 way = mesh.positions[v] - at;
             const double square = glm::dot(way, way);
             if (square < least) least = square, found = v;
             return square;
@@ -85,51 +95,63 @@ struct FieldStrokes::State {
         const FieldStroke& stroke = layer.stroke;
         const double radius = stroke.radius > 0 ? stroke.radius : mesh.radius / 10;
         const bool combs = stroke.brush == FieldBrush::comb;
-        const PolarMap map = polarMap(mesh, centre, radius);
-        const std::vector<double> carried = combs ? carriedAngles(mesh, map) : std::vector<double>();
+        polarMap(mesh, centre, radius, map);
+        if (combs) carryAngles(mesh, map, carried);
+        layer.felt += map.reached.size();
         for (const uint32_t v : map.reached) {
             const double d = map.distance[v] / radius, falloff = (1 - d * d) * (1 - d * d);
             const double felt = kWayThrough * falloff * steps;
-            Touch& touch = layer.touch(v);
+            Touch& touched = touch(layer, v);
             if (!combs) {
-                touch.relax += kRelaxed * stroke.strength * felt * radius * radius;
+                touched.relax += kRelaxed * stroke.strength * felt * radius * radius;
                 continue;
             }
             const double keep = std::pow(std::max(1 - stroke.strength, kLeastLeft), felt);
-            touch.laid = keep * touch.laid + (1 - keep) * turn * std::polar(1.0, symmetry * carried[v]);
-            touch.keep *= keep;
+            touched.laid = keep * touched.laid + (1 - keep) * turn * std::polar(1.0, symmetry * carried[v]);
+            touched.keep *= keep;
         }
     }
 
-    // The points from `layer.laid` on.
-    void goOn(Layer& layer) {
+    void layPoint(Layer& layer) {
         const FieldStroke& stroke = layer.stroke;
         const double radius = stroke.radius > 0 ? stroke.radius : mesh.radius / 10;
-        for (; layer.laid < stroke.points.size(); ++layer.laid) {
-            const dvec3 at(stroke.points[layer.laid]);
-            const dvec3 way = layer.laid > 0 ? at - dvec3(stroke.points[layer.laid - 1]) : dvec3(0);
-            const uint32_t centre = nearest(at);
-            if (stroke.brush == FieldBrush::smooth) {
-                const double steps = layer.laid > 0 ? std::min(glm::length(way) / radius, kMostStep) : kClick;
-                dab(layer, centre, steps, 1);
-                continue;
-            }
-            const dvec3 normal = mesh.normals[centre], flat = way - normal * glm::dot(way, normal);
-            if (glm::length(flat) > 1e-9 * mesh.radius)
-                dab(layer, centre, std::min(glm::length(way) / radius, kMostStep),
-                    std::polar(1.0, symmetry * mesh.angleOf(centre, flat)));
-        }
+        const dvec3 at(stroke.points[layer.laid]);
+        const dvec3 way = layer.laid > 0 ? at - dvec3(stroke.points[layer.laid - 1]) : dvec3(0);
+        const uint32_t centre = nearest(at);
+        const double steps = std::min(glm::length(way) / radius, kMostStep);
+        if (stroke.brush == FieldBrush::smooth) return dab(layer, centre, layer.laid > 0 ? steps : kClick, 1);
+        const dvec3 normal = mesh.normals[centre], flat = way - normal * glm::dot(way, normal);
+        if (glm::length(flat) > 1e-9 * mesh.radius)
+            dab(layer, centre, steps, std::polar(1.0, symmetry * mesh.angleOf(centre, flat)));
     }
 
-    void keepUp(const std::vector<FieldStroke>& strokes, uint32_t wanted) {
+    // The points from `layer.laid` on, as long as no more is felt than may be.
+    void goOn(Layer& layer, size_t mayBeFelt) {
+        if (layer.laid == layer.stroke.points.size()) return;
+        begin();
+        place.assign(mesh.positions.size(), kNoIndex);
+        for (uint32_t i = 0; i < layer.touches.size(); ++i) place[layer.touches[i].vertex] = i;
+        for (; layer.laid < layer.stroke.points.size() && layer.felt <= mayBeFelt; ++layer.laid) layPoint(layer);
+    }
+
+    Status keepUp(const std::vector<FieldStroke>& strokes, uint32_t wanted) {
         if (symmetry != wanted) layers.clear();
         symmetry = wanted;
         layers.resize(strokes.size());
+        size_t left = mostFelt;
         for (size_t i = 0; i < strokes.size(); ++i) {
-            if (!continues(strokes[i], layers[i].stroke)) layers[i] = {};
-            layers[i].stroke = strokes[i];
-            goOn(layers[i]);
+            Layer& layer = layers[i];
+            if (!continues(strokes[i], layer.stroke)) layer = {};
+            layer.stroke = strokes[i];
+            goOn(layer, left);
+            if (layer.felt > left)
+                return Failure("field",
+                               "with stroke " + std::to_string(i) + " the strokes are felt by more than " +
+                                   std::to_string(mostFelt) +
+                                   " vertices, each counted for each point of a stroke; lay fewer or smaller ones");
+            left -= layer.felt;
         }
+        return Done{};
     }
 
     // The field diffuses; around the places that relax it stays. relax: [vertex], m².
@@ -145,7 +167,7 @@ struct FieldStrokes::State {
         std::vector<Eigen::Triplet<Complex>> entries;
         Eigen::VectorXcd right(Eigen::Index(free.size()));
         for (const uint32_t v : free) {
-            const double hold = mesh.areas[v] / relax[v];
+            const double hold = mesh.areas[v] / std::min(relax[v], kMostRelaxed * mesh.radius * mesh.radius);
             entries.emplace_back(row[v], row[v], hold);
             right[row[v]] = hold * field.power[v];
         }
@@ -180,12 +202,12 @@ struct FieldStrokes::State {
     }
 };
 
-FieldStrokes::FieldStrokes(const FieldMesh& mesh) : state_(std::make_unique<State>(mesh)) {}
+FieldStrokes::FieldStrokes(const FieldMesh& mesh, size_t mostFelt) : state_(std::make_unique<State>(mesh, mostFelt)) {}
 FieldStrokes::~FieldStrokes() = default;
 
-bool FieldStrokes::lay(const std::vector<FieldStroke>& strokes, Field& field) {
+Status FieldStrokes::lay(const std::vector<FieldStroke>& strokes, Field& field) {
     State& s = *state_;
-    s.keepUp(strokes, field.symmetry);
+    if (Status kept = s.keepUp(strokes, field.symmetry); !kept) return kept;
     const size_t count = field.power.size();
     std::vector<double> keep(count, 1), relax(count, 0);
     std::vector<Complex> laid(count, 0);
@@ -197,7 +219,9 @@ bool FieldStrokes::lay(const std::vector<FieldStroke>& strokes, Field& field) {
         }
     for (size_t v = 0; v < count; ++v)
         if (keep[v] < 1) State::setDirection(field.power[v], keep[v] * field.power[v] + laid[v]);
-    return s.relaxField(relax, field);
+    if (!s.relaxField(relax, field))
+        return Failure("field", "the triangles under strokes that smooth are too bad to be smoothed over");
+    return Done{};
 }
 
 }  // namespace espalier

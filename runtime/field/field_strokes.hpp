@@ -14,10 +14,13 @@ namespace espalier {
 // one. mesh: outlives this. One thread at a time.
 class FieldStrokes {
   public:
-    explicit FieldStrokes(const FieldMesh& mesh);
+    // mostFelt: by how many vertices all strokes together may be felt, where a vertex counts for each point of a
+    // stroke. The usual limit is a minute's work, and 4 GB where no stroke has two points.
+    explicit FieldStrokes(const FieldMesh& mesh, size_t mostFelt = 100'000'000);
     ~FieldStrokes();
-    // Changes directions, no lengths. False: the triangles under a smoothing brush are too bad.
-    bool lay(const std::vector<FieldStroke>& strokes, Field& field);
+    // Changes directions, no lengths. Fails where strokes are felt by more vertices than may be, and where the
+    // triangles under a smoothing brush are too bad.
+    Status lay(const std::vector<FieldStroke>& strokes, Field& field);
 
   private:
     struct State;

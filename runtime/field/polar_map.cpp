@@ -27,14 +27,17 @@ struct Arrival {
 
 class Front {
   public:
-    Front(const FieldMesh& mesh, double reach) : mesh_(mesh), reach_(reach) {
-        map_.distance.assign(mesh.positions.size(), kInfinity);
-        map_.angle.assign(mesh.positions.size(), 0);
-        done_.assign(mesh.positions.size(), false);
+    Front(const FieldMesh& mesh, double reach, PolarMap& map)
+        : mesh_(mesh), reach_(reach), map_(map), done_(mesh.positions.size(), false) {
+        map_.distance.resize(mesh.positions.size(), kInfinity);
+        map_.angle.resize(mesh.positions.size());
+        for (const uint32_t v : map_.reached) map_.distance[v] = kInfinity;
+        map_.reached.clear();
     }
 
-    PolarMap run(uint32_t centre) {
+    void run(uint32_t centre) {
         map_.distance[centre] = 0;
+        map_.angle[centre] = 0;
         done_[centre] = true;
         map_.reached.push_back(centre);
         forEachCorner(centre, [&](uint32_t h) {
@@ -51,9 +54,6 @@ class Front {
             map_.reached.push_back(v);
             forEachCorner(v, [&](uint32_t h) { spread(h); });
         }
-        for (uint32_t v = 0; v < done_.size(); ++v)
-            if (!done_[v]) map_.distance[v] = kInfinity;
-        return std::move(map_);
     }
 
   private:
@@ -118,7 +118,7 @@ class Front {
 
     const FieldMesh& mesh_;
     const double reach_;
-    PolarMap map_;
+    PolarMap& map_;  // whatever a vertex is offered, it is done in the end
     std::vector<bool> done_;
     std::priority_queue<std::pair<double, uint32_t>, std::vector<std::pair<double, uint32_t>>, std::greater<>> open_;
 };
@@ -126,7 +126,13 @@ class Front {
 }  // namespace
 
 PolarMap polarMap(const FieldMesh& mesh, uint32_t centre, double reach) {
-    return Front(mesh, reach).run(centre);
+    PolarMap map;
+    polarMap(mesh, centre, reach, map);
+    return map;
+}
+
+void polarMap(const FieldMesh& mesh, uint32_t centre, double reach, PolarMap& map) {
+    Front(mesh, reach, map).run(centre);
 }
 
 }  // namespace espalier

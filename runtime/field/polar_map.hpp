@@ -16,5 +16,7 @@ struct PolarMap {
 
 // By a front of triangles that are laid flat one after another. reach: metres.
 PolarMap polarMap(const FieldMesh& mesh, uint32_t centre, double reach);
+// The same in the place of an earlier map of this mesh, or of an empty one: takes as long as both reach.
+void polarMap(const FieldMesh& mesh, uint32_t centre, double reach, PolarMap& map);
 
 }  // namespace espalier

@@ -20,7 +20,10 @@ Field summedField(const FieldMesh& mesh, uint32_t symmetry, const Pull& pull, ui
     makeUnit();
     for (uint32_t pass = 0; pass < passes; ++pass) {
         const std::vector<std::complex<double>> before = field.power;
-        for (uint32_t h = 0; h < along.size(); ++h) field.power[mesh.to(h)] += before[mesh.from(h)] * along[h];
+        for (uint32_t h = 0; h < along.size(); ++h) {
+            field.power[mesh.to(h)] += before[mesh.from(h)] * along[h];
+            if (mesh.twin[h] == kNoIndex) field.power[mesh.from(h)] += before[mesh.to(h)] * std::conj(along[h]);
+        }
         makeUnit();
     }
     return field;

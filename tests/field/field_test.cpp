@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "runtime/field/field.hpp"
 #include "runtime/field/polar_map.hpp"
@@ -102,6 +103,38 @@ TEST_CASE(
     const auto top = std::ranges::max_element(mesh.positions, {}, &glm::dvec3::y) - mesh.positions.begin();
     const double turned = std::arg(field.value().power[size_t(top)]) / 2;
     CHECK(std::abs(glm::dot(mesh.direction(uint32_t(top), turned), glm::dvec3(1, 0, 0))) > .999);
+}
+
+TEST_CASE("smoothing a summed field takes each neighbour once, also along a border") {
+    const FieldMesh mesh = makeFieldMesh(planeCorners(2, 6));
+    std::vector<std::set<uint32_t>> neighbours(mesh.positions.size());
+    for (const auto& t : mesh.triangles)
+        for (size_t k = 0; k < 3; ++k) neighbours[t[k]].insert({t[(k + 1) % 3], t[(k + 2) % 3]});
+    FieldDesign design;
+    design.symmetry = 1;
+    design.lean = 0;
+    design.summed = true;
+    for (const glm::dvec3& p : mesh.positions) {  // none is felt by others
+        const double angle = 5 * p.x * p.x + 3 * p.z + p.x * p.z;
+        design.elements.push_back({ElementKind::regular, p, {std::cos(angle), 0, -std::sin(angle)}, .01});
+    }
+    design.passes = 0;
+    const Result<Field> rough = designField(mesh, design);
+    REQUIRE(rough);
+    std::vector<glm::dvec3> wanted(mesh.positions.size());
+    for (uint32_t v = 0; v < wanted.size(); ++v) wanted[v] = mesh.direction(v, std::arg(rough.value().power[v]));
+    for (uint32_t passes = 1; passes <= 3; ++passes) {
+        const std::vector<glm::dvec3> before = wanted;
+        for (uint32_t v = 0; v < wanted.size(); ++v) {
+            for (const uint32_t other : neighbours[v]) wanted[v] += before[other];
+            wanted[v] = glm::normalize(wanted[v]);
+        }
+        design.passes = passes;
+        const Result<Field> field = designField(mesh, design);
+        REQUIRE(field);
+        for (uint32_t v = 0; v < wanted.size(); ++v)
+            CHECK(glm::length(mesh.direction(v, std::arg(field.value().power[v])) - wanted[v]) < 1e-9);
+    }
 }
 
 TEST_CASE("a vector field refuses elements of half a turn") {

@@ -6,6 +6,7 @@
 
 #include "runtime/field/field_picture.hpp"
 #include "runtime/field/field_solver.hpp"
+#include "runtime/field/field_strokes.hpp"
 #include "tests/field/baked_shapes.hpp"
 
 using namespace espalier;
@@ -199,4 +200,50 @@ TEST_CASE("strokes without points, of one point, beside the surface and over all
                       {FieldBrush::comb, {{5, 5, 5}, {5, 5, 5}}, .1, 1},
                       {FieldBrush::comb, {{9, 0, 0}, {-9, 0, 0}}, 100, 1}};
     for (const Complex& power : designed(mesh, design).power) CHECK(std::abs(power) == doctest::Approx(1));
+}
+
+TEST_CASE("strokes that are felt too often together are refused by their number, and fewer then go on") {
+    const FieldMesh mesh = makeFieldMesh(planeCorners(4, 20));
+    const size_t count = mesh.positions.size();
+    const Field below = designed(mesh, drifting(1, {1, 0, 0}));
+    // Each point of a wide stroke is felt by all vertices.
+    const FieldStroke wide{FieldBrush::smooth, std::vector<glm::vec3>(20, glm::vec3(0)), 1000, .5};
+    FieldStrokes kept(mesh, count * 100);
+    const std::vector<FieldStroke> most(5, wide), more(6, wide);
+    Field before = below, refused = below, after = below;
+    REQUIRE(kept.lay(most, before));
+    for (int time = 0; time < 2; ++time) {
+        const Status laid = kept.lay(more, refused);
+        REQUIRE_FALSE(laid);
+        CHECK(laid.failure().diagnostics.front().message.find(
+                  "with stroke 5 the strokes are felt by more than 44100 vertices") == 0);
+        CHECK(refused.power == below.power);
+    }
+    REQUIRE(kept.lay(most, after));
+    CHECK(after.power == before.power);
+    CHECK_FALSE(FieldStrokes(mesh, count * 100 - 1).lay(most, refused));
+}
+
+TEST_CASE("smoothing with a brush far larger than the surface evens all of it out, and leaves what is even") {
+    const FieldMesh mesh = makeFieldMesh(planeCorners(8, 80));
+    const dvec3 even = glm::normalize(dvec3(2, 0, -1));
+    for (const double height : {0.0, .3})
+        for (const double radius : {1e2, 1e5, 1e9}) {
+            auto samples = std::make_shared<FieldSamples>();
+            for (const dvec3& p : mesh.positions) {
+                const double angle =
+                    height * std::sin(3 * p.x) + std::atan2(1, 2);  // as often to one side as the other
+                samples->points.emplace_back(p);
+                samples->vectors.emplace_back(std::cos(angle), 0, -std::sin(angle));
+            }
+            FieldDesign design = drifting(1, even);
+            design.samples = samples;
+            design.strokes = {{FieldBrush::smooth, {{0, 0, 0}}, radius, 1}};
+            const Field field = designed(mesh, design);
+            double most = 0;
+            for (uint32_t v = 0; v < mesh.positions.size(); ++v) most = std::max(most, degreesAt(mesh, field, v, even));
+            CAPTURE(height);
+            CAPTURE(radius);
+            CHECK(most < (height > 0 ? .5 : 1e-5));
+        }
 }
