@@ -69,23 +69,40 @@ std::vector<FieldStroke> strokesOf(const EspFieldDef& def) {
     return all;
 }
 
-// What is the same as before stays the same object, so that what was made of it is known.
-template <class T>
-std::shared_ptr<const T> shared(T now, const std::shared_ptr<const T>& before) {
-    return before && *before == now ? before : std::make_shared<T>(std::move(now));
+// Whether an earlier call gave the same numbers. values: vectors or tensors, which are floats and nothing else.
+template <class Value>
+bool isSame(const std::vector<Value>& values, const float* numbers, size_t count) {
+    return values.size() == (numbers ? count : 0) &&
+           (values.empty() || std::memcmp(values.data(), numbers, count * sizeof(Value)) == 0);
+}
+bool isSame(const FieldSamples& samples, const EspFieldDef& def) {
+    return isSame(samples.points, def.points, def.pointCount) && isSame(samples.vectors, def.vectors, def.pointCount) &&
+           isSame(samples.tensors, def.tensors, def.pointCount);
+}
+bool isSame(const VectorPicture& picture, const EspFieldDef& def) {
+    return picture.width == def.pictureWidth && picture.height == def.pictureHeight &&
+           isSame(picture.texels, def.picture, size_t(def.pictureWidth) * def.pictureHeight);
 }
 
+std::shared_ptr<const FieldSamples> samplesOf(const EspFieldDef& def) {
+    auto samples = std::make_shared<FieldSamples>(
+        FieldSamples{vectorsOf(def.points, def.pointCount), vectorsOf(def.vectors, def.pointCount), {}});
+    samples->tensors.resize(def.tensors ? def.pointCount : 0);
+    if (def.tensors) std::memcpy(samples->tensors.data(), def.tensors, sizeof(float) * 6 * def.pointCount);
+    return samples;
+}
+
+// What is the same as before stays the same object, so that what was made of it is known; it isn't even copied, since
+// hosts give a whole file with each change of what lies over it.
 void takeSamples(const EspFieldDef& def, const AskedField& before, AskedField& asked) {
-    if (def.pointCount > 0) {
-        FieldSamples samples{vectorsOf(def.points, def.pointCount), vectorsOf(def.vectors, def.pointCount), {}};
-        samples.tensors.resize(def.tensors ? def.pointCount : 0);
-        if (def.tensors) std::memcpy(samples.tensors.data(), def.tensors, sizeof(float) * 6 * def.pointCount);
-        asked.samples = shared(std::move(samples), before.samples);
-    }
-    if (def.picture)
-        asked.picture = shared(VectorPicture{def.pictureWidth, def.pictureHeight,
-                                             vectorsOf(def.picture, size_t(def.pictureWidth) * def.pictureHeight)},
-                               before.picture);
+    if (def.pointCount > 0)
+        asked.samples = before.samples && isSame(*before.samples, def) ? before.samples : samplesOf(def);
+    if (!def.picture) return;
+    asked.picture = before.picture && isSame(*before.picture, def)
+                        ? before.picture
+                        : std::make_shared<VectorPicture>(
+                              VectorPicture{def.pictureWidth, def.pictureHeight,
+                                            vectorsOf(def.picture, size_t(def.pictureWidth) * def.pictureHeight)});
 }
 
 EspResult checkField(const EspContext* context, const EspFieldDef& def) {

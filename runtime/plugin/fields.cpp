@@ -44,10 +44,10 @@ FieldDesign designOf(const AskedField& asked, const PlacedSurface& surface, uint
 }
 
 // Of a picture they are read once.
-std::shared_ptr<const FieldSamples> samplesFor(const AskedField& asked, const FieldGround& ground, MadeField& made) {
+std::shared_ptr<const FieldSamples> samplesFor(const AskedField& asked, const FieldGround& ground,
+                                               const MadeField& made) {
     if (!asked.picture) return asked.samples;
     if (made.picture == asked.picture) return made.samples;
-    made.picture = asked.picture;
     return std::make_shared<FieldSamples>(samplesOf(*ground.surface, ground.mesh, *asked.picture));
 }
 
@@ -55,11 +55,12 @@ Result<Field> designed(EspContext& context, const FieldGround& ground, const Ask
                        const PlacedSurface& surface, const FieldInfo& info, MadeField& made) {
     FieldDesign design = designOf(asked, surface, info.symmetry);
     design.samples = samplesFor(asked, ground, made);
-    const bool other = made.samples != design.samples;
-    made.samples = design.samples;
     if (!made.solver) made.solver = std::make_unique<FieldSolver>(ground.mesh);
     Result<Field> field = made.solver->design(design);
     if (!field) return Failure("field '" + info.name + "'", field.failure().diagnostics.front().message);
+    const bool other = made.samples != design.samples;
+    made.picture = asked.picture;
+    made.samples = design.samples;
     if (other && field->unsampled > 0)
         context.log(Severity::warning, "field '" + info.name + "': " + std::to_string(field->unsampled) + " of " +
                                            std::to_string(ground.mesh.positions.size()) +

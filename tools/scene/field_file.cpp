@@ -140,15 +140,18 @@ bool readPicture(const std::string& path, FieldFile& out, std::string& error) {
     if (!readFloats(path, picture, error)) return false;
     out.width = picture.width;
     out.height = picture.height;
-    for (size_t i = 0; i < picture.rgba.size(); ++i) {
+    out.vectors = std::move(picture.rgba);  // which move together in their place: a second copy would be large
+    size_t kept = 0;
+    for (size_t i = 0; i < out.vectors.size(); ++i) {
         if (i % 4 == 3) continue;
-        if (!std::isfinite(picture.rgba[i])) {
+        if (!std::isfinite(out.vectors[i])) {
             error = path + ": texel " + std::to_string(i / 4 % picture.width) + ", " +
                     std::to_string(i / 4 / picture.width) + " holds no finite number";
             return false;
         }
-        out.vectors.push_back(picture.rgba[i]);
+        out.vectors[kept++] = out.vectors[i];
     }
+    out.vectors.resize(kept);
     return true;
 }
 
@@ -162,8 +165,10 @@ bool readAny(const std::string& path, const std::string& field, FieldFile& out, 
             error = path + (std::isdigit(static_cast<unsigned char>(wrong[0])) ? ":" : ": ") + wrong;
         return error.empty();
     }
-    if (readPictureHead(bytes, head, why) && std::string_view(head.format) == "openexr")
+    if (readPictureHead(bytes, head, why) && std::string_view(head.format) == "openexr") {
+        bytes = {};  // it is read by its name, and may be large
         return readPicture(path, out, error);
+    }
     error = path + ": is neither PLY nor OpenEXR, which hold fields";
     return false;
 }

@@ -41,6 +41,7 @@ void give(const FieldFile& file, const EspSurfaceInfo& surface, std::vector<floa
         def.pictureHeight = file.height;
         return;
     }
+    points.reserve(file.points.size() * 3);
     for (const auto& point : file.points)
         for (size_t k = 0; k < 3; ++k) points.push_back(float(point[k] - surface.origin[k]));
     def.points = points.data();
