@@ -102,6 +102,7 @@ bool App::openDocument(const espalier::scene::Request& request, std::string& err
     work_.forgetBarren();
     work_.house.reset();
     work_.houseEdge.reset();
+    controls_->forgetScene();
     atlas_->forget();
     work_.graphs.open = 0;
     work_.graphs.playing = false;

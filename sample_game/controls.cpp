@@ -237,9 +237,10 @@ void Controls::takeToolKey(const KeyEvent& event) {
     if (work_.tool == Tool::branch && key == GLFW_KEY_LEFT_BRACKET) work_.pickParent();
     if (work_.tool == Tool::houses && removes) houses_.removeCorner(work_);
     if (work_.tool == Tool::fields && removes) fields_.remove(work_);
-    if (work_.tool == Tool::fields && (key == GLFW_KEY_LEFT_BRACKET || key == GLFW_KEY_RIGHT_BRACKET))
+    if (work_.tool == Tool::fields && brushesField(work_) &&
+        (key == GLFW_KEY_LEFT_BRACKET || key == GLFW_KEY_RIGHT_BRACKET))
         work_.field.radius = std::clamp(fieldReach(work_) * (key == GLFW_KEY_LEFT_BRACKET ? 1 / 1.15f : 1.15f),
-                                        kSmallestBrush, kLargestBrush);
+                                        kSmallestBrush, mostFieldReach(work_));
     if (work_.tool == Tool::path && removes) path_.removePoint(work_);
     if (work_.tool == Tool::seeds) {
         if (removes) seeds_.remove(work_);

@@ -25,9 +25,10 @@ class Controls {
     void showTool(int mods);
 
     void setEditing(bool editing);
-    void askToQuit();                            // see askToLeave
-    void finishTools();                          // what they, and the mouse in a panel, are about is done as it is
-    void forgetButtons() { panelButtons_ = 0; }  // what lets go of those that are down won't be told
+    void askToQuit();                              // see askToLeave
+    void finishTools();                            // what they, and the mouse in a panel, are about is done as it is
+    void forgetScene() { fields_.forget(work_); }  // another one is open now
+    void forgetButtons() { panelButtons_ = 0; }    // what lets go of those that are down won't be told
     bool caught() const { return navigation_.caught; }
     bool flying() const { return navigation_.flying(); }
     bool painting() const { return brush_.painting(); }

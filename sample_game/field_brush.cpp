@@ -25,6 +25,10 @@ float fieldReach(const Workspace& work) {
     return work.field.radius > 0 ? work.field.radius : .1f * work.reach();
 }
 
+float mostFieldReach(const Workspace& work) {
+    return std::max(work.reach(), 2 * kSmallestBrush);
+}
+
 std::optional<size_t> surfaceUnder(const Workspace& work, const EspHit& hit) {
     const auto& surfaces = work.scene().surfaces;
     for (size_t i = 0; i < surfaces.size(); ++i)

@@ -10,6 +10,8 @@ bool brushesField(const Workspace& work);  // one of them is what comes next
 
 // How far the next element is felt, or the brush; metres, world.
 float fieldReach(const Workspace& work);
+// The largest that it can be made, by whatever means; kSmallestBrush is the smallest.
+float mostFieldReach(const Workspace& work);
 // Which of the scene's surfaces a hit is on; nothing: none.
 std::optional<size_t> surfaceUnder(const Workspace& work, const EspHit& hit);
 

@@ -197,6 +197,12 @@ void FieldTool::cancel(Workspace& work) {
     drag_ = Drag::none;
 }
 
+void FieldTool::forget(Workspace& work) {
+    turns_ = {};
+    work.field.surface = 0;
+    work.field.element.reset();
+}
+
 void FieldTool::remove(Workspace& work) {
     if (!chosenElement(work)) return work.say("No element is chosen: click one");
     SceneField field = fieldNow(work, work.field.surface);

@@ -14,6 +14,7 @@ class FieldTool {
     bool take(Workspace& work, const PointerEvent& event);
     void cancel(Workspace& work);  // what is under way, as if it hadn't been
     void finish() { drag_ = Drag::none; }
+    void forget(Workspace& work);  // of the scene that was open before
     void remove(Workspace& work);  // the chosen element
     bool dragging() const { return drag_ != Drag::none; }
     void draw(const Workspace& work);

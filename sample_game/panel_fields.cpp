@@ -86,7 +86,7 @@ bool changeAll(Workspace& work, uint32_t gesture, F&& change) {
 
 void brushRows(Workspace& work) {
     float radius = fieldReach(work);
-    if (labelledSlider("Radius", &radius, kSmallestBrush, std::max(work.reach(), 2 * kSmallestBrush), "%.2f m", true))
+    if (labelledSlider("Radius", &radius, kSmallestBrush, mostFieldReach(work), "%.2f m", true))
         work.field.radius = radius;
     toolTip("How far the brush reaches; [ and ] change it");
     labelledSlider("Strength", &work.field.strength, 0, 1, "%.2f");

@@ -164,6 +164,76 @@ TEST_CASE("elements and strokes go along when their surface is moved, and come b
     CHECK(editing.document->scene().surfaces[0].fields[0] == moved);
 }
 
+TEST_CASE("a drag of a surface with elements keeps what undoes one move") {
+    const Folder folder;
+    Editing editing(patternScene(folder));
+    SetField set;
+    set.field.name = "flow";
+    set.field.elements = {{"regular", {.3f, 1.1f, 0}, {.6f, .8f, 0}, .3f}};
+    REQUIRE(editing.perform(set));
+    const SceneField field = editing.document->scene().surfaces[0].fields[0];
+    size_t bytes = 0;
+    for (int i = 1; i <= 20; ++i) {
+        REQUIRE(editing.perform(PlaceSurface{0, {.1f * float(i), 0, 0}, .01f * float(i), 1}, 7));
+        if (i == 1) bytes = editing.document->historyBytes();
+    }
+    CHECK(editing.document->historyBytes() == bytes);
+    CHECK(editing.document->undoSteps() == 2);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(editing.document->scene().surfaces[0].fields[0] == field);
+    CHECK(editing.document->scene().surfaces[0].placing.position == std::array<float, 3>{0, 0, 0});
+}
+
+TEST_CASE("a surface stays where an element of it couldn't go along") {
+    const Folder folder;
+    Editing editing(patternScene(folder));
+    SetField set;
+    set.field.name = "flow";
+    set.field.elements = {{"regular", {.3f, 1.1f, 0}, {.6f, .8f, 0}, 9e8f}, {"wedge", {0, 1, 0}, {1, 0, 0}, .3f}};
+    REQUIRE(editing.perform(set));
+    const espalier::scene::LoadedSurface& surface = editing.document->scene().surfaces[0];
+    REQUIRE(editing.perform(PlaceSurface{0, {0, 0, 0}, 0, 4}));
+    CHECK(surface.fields[0].elements[0].radius == 1e9f);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(surface.fields[0].elements[0].radius == 9e8f);
+
+    set.field.elements[1].position[1] = 1e38f;
+    REQUIRE(editing.perform(set));
+    const SceneField field = surface.fields[0];
+    const uint64_t before = patternOf(editing.context.get());
+    const size_t steps = editing.document->undoSteps();
+    CHECK_FALSE(editing.perform(PlaceSurface{0, {1, 0, 0}, 0, 1000}));
+    CHECK_MESSAGE(contains(editing.error, "element 1 is out of range"), editing.error);
+    CHECK(editing.document->undoSteps() == steps);
+    CHECK(surface.fields[0] == field);
+    CHECK(surface.placing.scale == 1);
+    EspHit hit;
+    const float there[] = {0, 1, 0};
+    REQUIRE(espNearest(editing.context.get(), there, &hit) == ESP_OK);
+    CHECK(std::abs(hit.position[1] - 1) < .1f);
+    CHECK(patternOf(editing.context.get()) == before);
+}
+
+TEST_CASE("[ and ] make the brush smaller and larger, in a scene of any size") {
+    const Folder folder;
+    Comber comber(folder);
+    for (const float scale : {1.f, 300.f}) {
+        REQUIRE(comber.work.perform(PlaceSurface{0, {0, 0, 0}, 0, scale}));
+        comber.work.field.kind = sample::kComb;
+        comber.work.field.radius = 0;
+        const float standing = sample::fieldReach(comber.work);
+        comber.key(GLFW_KEY_RIGHT_BRACKET);
+        CHECK(comber.work.field.radius == doctest::Approx(1.15f * standing));
+        comber.key(GLFW_KEY_LEFT_BRACKET);
+        CHECK(comber.work.field.radius == doctest::Approx(standing));
+        for (int i = 0; i < 40; ++i) comber.key(GLFW_KEY_RIGHT_BRACKET);
+        CHECK(comber.work.field.radius == sample::mostFieldReach(comber.work));
+        comber.work.field.kind = "wedge";
+        comber.key(GLFW_KEY_LEFT_BRACKET);
+        CHECK(comber.work.field.radius == sample::mostFieldReach(comber.work));
+    }
+}
+
 TEST_CASE("smoothing acts with a click, Esc forgets a stroke, and beside the surface there is none") {
     const Folder folder;
     Comber comber(folder);
@@ -351,6 +421,87 @@ TEST_CASE("a field's file turns the pattern, is undone, saved, and missed with a
     CHECK(contains(notes[0], "; the field 'flow' is without it"));
     CHECK(contains(without.document->scene().surfaces[0].fields[0].file, "wind.ply"));
     CHECK(patternOf(without.context.get()) != turned);
+}
+
+TEST_CASE("a run and the field's file that it loads may be moved together") {
+    const Folder folder;
+    const std::filesystem::path from = folder.path / "from", to = folder.path / "to";
+    std::filesystem::create_directories(from);
+    const std::string rows = "-1 0 0 .6 .8 0\n1 0 0 .6 .8 0\n1 2 0 .6 .8 0\n-1 2 0 .6 .8 0\n";
+    uint64_t turned = 0;
+    {
+        Editing editing(patternScene(folder));
+        for (const char* name : {"plate.json", "plate.surface.glb", "rows.grammar"})
+            std::filesystem::copy_file(folder.file(name), from / name);
+        Recorder recorder;
+        std::string error;
+        REQUIRE(recorder.begin((from / "run.jsonl").string(), {1, (from / "plate.json").string(), 64, 36, .1f}, error));
+        editing.document->listen([&](const Action& action, uint32_t gesture) { recorder.note(action, gesture); });
+        SetField load;
+        load.field.name = "flow";
+        REQUIRE(editing.perform(load));  // which names no file
+        load.field.file = folder.write("from/wind.ply", plyOf(rows, 4));
+        REQUIRE(editing.perform(load));
+        REQUIRE(recorder.end(error));
+        turned = patternOf(editing.context.get());
+    }
+    std::filesystem::rename(from, to);
+    Run run;
+    std::string error;
+    REQUIRE_MESSAGE(readRun((to / "run.jsonl").string(), run, error), error);
+    Editing replayed(run.head.scene);
+    for (const RunLine& line : run.lines) REQUIRE_MESSAGE(replayed.perform(line.action, line.gesture), replayed.error);
+    CHECK(patternOf(replayed.context.get()) == turned);
+    CHECK(replayed.document->scene().surfaces[0].fields[0].file == (to / "wind.ply").string());
+}
+
+TEST_CASE("passes are kept while nothing is summed") {
+    const Folder folder;
+    Comber comber(folder);
+    SetField set;
+    set.field.name = "flow";
+    set.field.passes = 20;
+    RunLine back;
+    REQUIRE_MESSAGE(fromJson(toJson({0, 0, set}), back, comber.work.error), comber.work.error);
+    CHECK(std::get<SetField>(back.action).field.passes == 20);
+    REQUIRE(comber.work.perform(set));
+    REQUIRE(comber.save(folder.file("saved")));
+    CHECK(Editing(folder.file("saved")).document->scene().surfaces[0].fields[0] == comber.fields()[0]);
+}
+
+TEST_CASE("the history counts a field's file once, when the scene has another") {
+    const Folder folder;
+    Editing editing(patternScene(folder));
+    std::string rows;
+    for (int i = 0; i < 4000; ++i) rows += std::to_string(i / 2000. - 1) + " 1 0 .6 .8 0\n";
+    SetField load;
+    load.field.name = "flow";
+    load.field.file = folder.write("wind.ply", plyOf(rows, 4000));
+    REQUIRE(editing.perform(load));
+    constexpr size_t kFile = 4000 * (3 * sizeof(double) + 3 * sizeof(float));
+    for (int i = 0; i < 5; ++i) {
+        load.field.lean = .1f * float(i);
+        REQUIRE(editing.perform(load));
+    }
+    const size_t before = editing.document->historyBytes();
+    CHECK(before < kFile);
+    load.field.file.clear();
+    REQUIRE(editing.perform(load));
+    CHECK(editing.document->historyBytes() > before + kFile);
+    CHECK(editing.document->historyBytes() < before + kFile + kFile / 2);
+    REQUIRE(editing.perform(Undo{}));
+    CHECK(editing.document->historyBytes() < kFile);
+}
+
+TEST_CASE("a project refuses a field's file that it can't name") {
+    const Folder folder;
+    Comber comber(folder);
+    SetField load;
+    load.field.name = "flow";
+    load.field.file = folder.write("w\xfcnd.ply", plyOf("0 1 0 .6 .8 0\n", 1));
+    REQUIRE_MESSAGE(comber.work.perform(load), comber.work.error);
+    CHECK_FALSE(comber.save(folder.file("saved")));
+    CHECK_MESSAGE(contains(comber.work.error, "nd.ply: its name isn't UTF-8"), comber.work.error);
 }
 
 TEST_CASE("what can't be done to a field is told, and leaves it as it is") {
