@@ -75,7 +75,8 @@ ESP_API EspResult espDefaultFieldDef(EspFieldDef* out);   /* nothing of all this
  * surface's own. def: copied; NULL: as espDefaultFieldDef says, which holds for every surface to begin with. Takes effect with
  * the next espUpdate. ESP_INVALID_ARGUMENT: there is no such surface, the name is empty, a number isn't finite, or there is
  * too much of something. Elements of half a turn do nothing where a grammar declares a field of vectors. Tensors for a field
- * of odd N, and points of which none lies near the surface, fail in espUpdate with ESP_INVALID_CONTENT. */
+ * of odd N, points of which none lies near the surface, and strokes that are felt by more than 100,000,000 vertices, each
+ * counted for each point of a stroke, fail in espUpdate with ESP_INVALID_CONTENT. */
 ESP_API EspResult espSetField(EspContext* context, EspSurface surface, const char* name, const EspFieldDef* def);
 
 /* A place about which a field turns. */
