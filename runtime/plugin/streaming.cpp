@@ -167,7 +167,7 @@ void Streaming::standAsIs(uint32_t id, Streamed& streamed, uint32_t like) {
         return failed(id, bad, std::exchange(context_.error, {}));
     streamed.bytes = surfaces_.at(like).bytes;
     standLike(context_, id, standing, streamed.request);
-    stood(id, streamed, hash);
+    stood(streamed, hash);
 }
 
 bool Streaming::makeRoom(uint32_t load, uint64_t bytes) {
@@ -193,11 +193,11 @@ EspResult Streaming::stand(uint32_t id, SurfaceRead read) {
     const uint64_t hash = read.surface.content->data.hash;
     if (const EspResult bad = mayStand(streamed, hash); bad != ESP_OK) return bad;
     standAs(context_, id, std::move(read));
-    stood(id, streamed, hash);
+    stood(streamed, hash);
     return ESP_OK;
 }
 
-void Streaming::stood(uint32_t id, Streamed& streamed, uint64_t hash) {
+void Streaming::stood(Streamed& streamed, uint64_t hash) {
     context_.layers.insert(context_.layers.end(), std::make_move_iterator(streamed.layers.begin()),
                            std::make_move_iterator(streamed.layers.end()));
     streamed.layers.clear();

@@ -72,7 +72,7 @@ class Streaming {
     // As another place of what stands already.
     void standAsIs(uint32_t id, Streamed& streamed, uint32_t like);
     EspResult mayStand(const Streamed& streamed, uint64_t hash) const;
-    void stood(uint32_t id, Streamed& streamed, uint64_t hash);
+    void stood(Streamed& streamed, uint64_t hash);
 
     EspContext& context_;
     EspStreamingDef def_;

@@ -6,7 +6,7 @@
 
 namespace espalier {
 
-constinit thread_local uint32_t left = kPlenty;
+constinit thread_local uint32_t allocationsLeft = kPlenty;
 constinit thread_local uint32_t refusals = 0;
 
 }  // namespace espalier
@@ -14,9 +14,9 @@ constinit thread_local uint32_t refusals = 0;
 using namespace espalier;
 
 void* operator new(std::size_t bytes) {
-    const bool none = left == 0;
+    const bool none = allocationsLeft == 0;
     if (none) ++refusals;
-    if (!none && left != kPlenty) --left;
+    if (!none && allocationsLeft != kPlenty) --allocationsLeft;
     void* memory = none ? nullptr : std::malloc(bytes > 0 ? bytes : 1);
     return memory ? memory : throw std::bad_alloc();
 }

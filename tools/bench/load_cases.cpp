@@ -89,10 +89,10 @@ void placesCase(Bench& bench, EspContext* context, const std::string& path, doub
     bool good =
         espLoadSurface(context, path.c_str(), &origin, surfaces.data()) == ESP_OK && espUpdate(context) == ESP_OK;
     const auto stats = [&] {
-        EspStats stats{};
-        stats.structSize = sizeof stats;
-        good = good && espReadStats(context, &stats) == ESP_OK;
-        return stats;
+        EspStats read{};
+        read.structSize = sizeof read;
+        good = good && espReadStats(context, &read) == ESP_OK;
+        return read;
     };
     const auto bytes = [&] { return double(stats().totalBytes) / (1 << 20); };
     // Two that run into each other.
@@ -110,7 +110,7 @@ void placesCase(Bench& bench, EspContext* context, const std::string& path, doub
     }
     good = good && espUpdate(context) == ESP_OK;
     const double ms = threadMs() - before, all = bytes();
-    for (const EspSurface surface : surfaces) (void)espDestroySurface(context, surface);
+    for (const EspSurface place : surfaces) (void)espDestroySurface(context, place);
     if (!good) return bench.skip(name, espLastError(context));
     bench.add({name, "memory of the device, 2,000 places", "MiB", all, "one place", one});
     bench.add({name, "memory for each of two that touch", "MiB", touched, "the surface", surface});
