@@ -223,10 +223,10 @@ TEST_CASE("a surface that the host has no memory for is neither drawn nor kept")
     const EspStats before = life.stats();
     EspSurface surface{};
     const auto load = [&](uint32_t pieces) {
-        left = pieces;
+        allocationsLeft = pieces;
         const EspResult result = espLoadSurface(life.context, ESPALIER_SQUARE, nullptr, &surface);
-        const uint32_t rest = left;
-        left = kPlenty;
+        const uint32_t rest = allocationsLeft;
+        allocationsLeft = kPlenty;
         if (result == ESP_OK) REQUIRE(espDestroySurface(life.context, surface) == ESP_OK);
         return std::pair(result, pieces - rest);
     };
@@ -446,10 +446,10 @@ TEST_CASE("a town whose roofs' meshes the host had no memory to name gets them a
     uint32_t used[2] = {};
     const auto load = [&](Life& life, uint32_t pieces) {
         town.length = 0;
-        left = pieces;
+        allocationsLeft = pieces;
         const EspResult result = espLoadTown(life.context, &town);
-        const uint32_t rest = left;
-        left = kPlenty;
+        const uint32_t rest = allocationsLeft;
+        allocationsLeft = kPlenty;
         return std::pair(result, pieces - rest);
     };
     {
