@@ -8,6 +8,7 @@
 
 #include "runtime/core/hash.hpp"
 #include "runtime/expand/growth_plan.hpp"
+#include "shaders/shared/expand_avoid.h"
 
 namespace espalier {
 namespace {
@@ -100,9 +101,12 @@ bool sound(const PlantRecords& p, uint32_t surfaces) {
         if (!std::isfinite(c.entry.uv.x + c.entry.uv.y)) return false;
         for (uint32_t link : {c.firstChild, c.nextSibling})
             if (link != kNoIndex && ++linked[link] > 1) return false;
-        // Further away from the seed each, so that no way along links has no end.
+        // Further away from the seed each, so that no way along links has no end: by a step, and one for each try.
+        const uint32_t own = c.depth >> 16;
         for (uint32_t link : {c.next, c.firstChild})
-            if (link != kNoIndex && (p.chunks[link].parent != i || depth(link) <= c.depth >> 16)) return false;
+            if (link != kNoIndex &&
+                (p.chunks[link].parent != i || depth(link) <= own || depth(link) > own + 1 + kMostTries))
+                return false;
         if (c.next != kNoIndex && p.chunks[c.next].branch != c.branch) return false;
         if (c.nextSibling != kNoIndex && p.chunks[c.nextSibling].parent != c.parent) return false;
         if (c.parent != kNoIndex && depth(c.parent) >= c.depth >> 16) return false;

@@ -236,13 +236,19 @@ Verdict judge(const GrowStatus& status, std::span<const Wave> waves, const Growt
 }
 
 bool everyShapeGrew(const GrowStatus& status, std::span<const Wave> waves) {
+    const bool drops = status.avoidReach > 0;
     uint64_t chunks = 0, nodes = 0, missing = 0;
     for (size_t w = 0; w < waves.size(); ++w) {
-        if (w < status.limitWave) missing += uint64_t(waves[w].count) - waves[w].chunks;
+        if (w < status.limitWave) {
+            if (waves[w].chunks > waves[w].count || (!drops && waves[w].chunks < waves[w].count)) return false;
+            missing += waves[w].count - waves[w].chunks;
+        }
         chunks += waves[w].chunks;
         nodes += waves[w].nodes;
     }
-    const bool droppedAll = missing == status.dropped || (status.avoidReach > 0 && status.limitWave < waves.size());
+    // Of the waves that a limit cuts nobody knows what was dropped and what was refused.
+    const bool cut = status.limitWave < waves.size();
+    const bool droppedAll = cut ? missing <= status.dropped : missing == status.dropped;
     return droppedAll && status.waveUndecided == 0 && chunks == status.chunks && nodes == status.nodes;
 }
 
