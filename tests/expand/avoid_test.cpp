@@ -38,6 +38,25 @@ void checkAlike(const GrowthStats& a, const GrowthStats& b) {
     CHECK(a.inserted == b.inserted);
 }
 
+// Ivy as it is shipped, 3 cm apart on a wall of 3 m; lengths are those of a model so high.
+void checkIvyOn(Scene& scene, float height) {
+    const float scale = height / 3, apart = 0.03f;
+    Result<std::string> text = readTextFile(std::string(ESPALIER_GRAMMARS) + "/ivy_free.grammar");
+    REQUIRE(text);
+    RuleMap& ivy = scene.grammar(scene.addGrammar(*text));
+    ivy.setParam(*ivy.findParam("scale"), {&scale, 1});
+    ivy.setParam(*ivy.findParam("apart"), {&apart, 1});
+    CHECK(ivy.avoid() == doctest::Approx(scale * apart));
+    scene.widths = {ivy.width()};
+    scene.plantMany(12);
+    scene.avoid = {ivy.avoid()};
+    Result<CpuGrowth> kept = scene.growOnCpu();
+    REQUIRE(kept);
+    CHECK(kept->stats.nodes > 2000);
+    CHECK(nearestOf(*kept, double(ivy.avoid()) * 0.99999) == kFar);
+    MESSAGE(kept->stats.nodes << " nodes, " << kept->stats.branches << " branches");
+}
+
 }  // namespace
 
 TEST_CASE("no two branches are nearer than their distance, but at joints, and most still grow") {
@@ -135,6 +154,53 @@ TEST_CASE("a distance of 0 is none, and a grammar without one takes no part") {
     CHECK(!scene.growOnCpu());
 }
 
+TEST_CASE("distances of no sense end in plants, or in none") {
+    Scene scene = crowdedScene(ball(), 12);
+    Result<CpuGrowth> free = scene.growOnCpu();
+    REQUIRE(free);
+    for (const float distance : {1e-38f, 1e-30f, 1e-6f}) {
+        scene.avoid = {distance};
+        Result<CpuGrowth> kept = scene.growOnCpu();
+        REQUIRE_MESSAGE(kept, (kept ? "" : kept.failure().text()));
+        CHECK(kept->stats.nodes > free->stats.nodes / 3);
+    }
+    scene.avoid = {1e30f};  // one plant is left, whose branches all meet at joints
+    Result<CpuGrowth> kept = scene.growOnCpu();
+    REQUIRE_MESSAGE(kept, (kept ? "" : kept.failure().text()));
+    CHECK(kept->stats.nodes < free->stats.nodes);
+}
+
+TEST_CASE("shapes that a device loses are noticed wave by wave, where stems keep distances, too") {
+    GrowStatus status{};
+    status.limitWave = 10;
+    const auto grew = [&](std::vector<std::array<uint32_t, 2>> waves) {
+        std::vector<Wave> all(waves.size());
+        status.chunks = status.nodes = 0;
+        for (size_t i = 0; i < waves.size(); ++i) {
+            all[i].count = waves[i][0];
+            all[i].chunks = all[i].nodes = waves[i][1];
+            status.chunks += waves[i][1];
+            status.nodes += waves[i][1];
+        }
+        return everyShapeGrew(status, all);
+    };
+    CHECK(grew({{3, 3}, {5, 5}, {0, 0}}));
+    CHECK(!grew({{3, 3}, {5, 4}, {0, 0}}));
+    CHECK(!grew({{3, 4}, {5, 4}, {0, 0}}));  // in sum there are as many
+    status.dropped = 1;
+    CHECK(!grew({{3, 3}, {5, 4}, {0, 0}}));  // nobody drops any
+    status.avoidReach = 1;
+    CHECK(grew({{3, 3}, {5, 4}, {0, 0}}));
+    CHECK(!grew({{3, 3}, {5, 3}, {0, 0}}));
+    CHECK(!grew({{3, 4}, {5, 3}, {0, 0}}));
+    status.waveUndecided = 1;
+    CHECK(!grew({{3, 3}, {5, 4}, {0, 0}}));
+    status.waveUndecided = 0;
+    status.limitWave = 1;  // of the second wave nobody knows
+    CHECK(grew({{3, 3}, {5, 2}, {0, 0}}));
+    CHECK(!grew({{5, 3}, {5, 5}, {0, 0}}));
+}
+
 TEST_CASE("an edit among stems that keep a distance gives what growing all anew gives") {
     Session s(ball());
     s.scene.avoid = {0.02f, 0.01f};
@@ -198,33 +264,25 @@ TEST_CASE("stems stay away from frozen plants, which stay as they are") {
     }
 }
 
+TEST_CASE("ivy keeps its distance on the ruin") {
+    Result<SurfaceData> ruin = readSurface(ESPALIER_RUIN);
+    REQUIRE_MESSAGE(ruin, (ruin ? "" : ruin.failure().text()));
+    Scene scene(std::move(*ruin));
+    checkIvyOn(scene, 3);
+}
+
 TEST_CASE("ivy keeps its distance on statues") {
     if (test::dataFolder().empty()) {
         MESSAGE("skipped: it needs the data of tests");
         return;
     }
     for (const char* name : {"bunny", "armadillo", "dragon_res3"}) {
-        CAPTURE(name);
+        CAPTURE(std::string(name));
         Result<Model> model = importModel((test::dataFolder() / "derived" / (std::string(name) + ".glb")).string());
         REQUIRE(model);
         Scene scene = Scene::baked(*model, 512);
         float low = 1e30f, high = -1e30f;
         for (const glm::vec3& p : model->positions) low = std::min(low, p.y), high = std::max(high, p.y);
-        const float scale = (high - low) / 3;
-        Result<std::string> text = readTextFile(std::string(ESPALIER_GRAMMARS) + "/ivy_free.grammar");
-        REQUIRE(text);
-        RuleMap& ivy = scene.grammar(scene.addGrammar(*text));
-        const float apart = 0.03f;
-        ivy.setParam(*ivy.findParam("scale"), {&scale, 1});
-        ivy.setParam(*ivy.findParam("apart"), {&apart, 1});
-        CHECK(ivy.avoid() == doctest::Approx(scale * apart));
-        scene.avoid = {ivy.avoid()};
-        scene.widths = {ivy.width()};
-        scene.plantMany(12);
-        Result<CpuGrowth> kept = scene.growOnCpu();
-        REQUIRE(kept);
-        CHECK(kept->stats.nodes > 2000);
-        CHECK(nearestOf(*kept, double(ivy.avoid()) * 0.99999) == kFar);
-        MESSAGE(name << ": " << kept->stats.nodes << " nodes, " << kept->stats.branches << " branches");
+        checkIvyOn(scene, high - low);
     }
 }
