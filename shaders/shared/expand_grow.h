@@ -1,7 +1,7 @@
 // Growing one chunk: begun from its work item, stepped until it ends or is full, published (Buron 2015 §5).
 //
 // A chunk is a pure function of its work item and of the inputs (surface, rule maps, layers): it reads nothing that
-// growth writes but the chunk that it leaves. What a regrowth does otherwise (ESPALIER_AGAIN: it takes places of chunks
+// growth writes but the chunk that it leaves, and what stands since earlier waves where its stem keeps a distance. What a regrowth does otherwise (ESPALIER_AGAIN: it takes places of chunks
 // that are grown again, and leaves those alone that come out as they were) is in shaders/expand/again_claim.h.
 #ifndef ESPALIER_SHARED_EXPAND_GROW_H
 #define ESPALIER_SHARED_EXPAND_GROW_H
